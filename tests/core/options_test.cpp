@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/core/options.h"
+
+#include <gtest/gtest.h>
+
+#include "unseen/core/error.h"
+
+namespace unseen {
+namespace {
+
+struct Sample {
+  bool flag = false;
+  int count = 3;
+  double share = 0.5;
+  std::optional<double> scale;
+  std::string solver = "local";
+  std::vector<double> angles = {90};
+};
+
+OptionTable table_of(Sample& s) {
+  OptionTable table;
+  table.add({"flag", &s.flag, "", "", {}, {}, {}});
+  table.add({"count", &s.count, "", "", 1, 9, {}});
+  table.add({"share", &s.share, "1", "", 0, 1, {}});
+  table.add({"scale", &s.scale, "m", "", 1e-300, 1e300, {}});
+  table.add({"solver", &s.solver, "", "", 0, 0, {"local", "exact"}});
+  table.add({"angles", &s.angles, "deg", "", 1, 180, {}});
+  return table;
+}
+
+TEST(Options, TextSetsEveryKind) {
+  Sample s;
+  OptionTable table = table_of(s);
+  for (const auto& [name, text] : {std::pair{"flag", "true"}, {"count", "7"}, {"share", "0.25"}, {"scale", "1e-3"},
+                                   {"solver", "exact"}, {"angles", "60,90"}})
+    table.set_text(name, text, "command line");
+  EXPECT_TRUE(s.flag);
+  EXPECT_EQ(s.count, 7);
+  EXPECT_EQ(s.share, 0.25);
+  EXPECT_EQ(s.scale, 1e-3);
+  EXPECT_EQ(s.solver, "exact");
+  EXPECT_EQ(s.angles, (std::vector<double>{60, 90}));
+}
+
+TEST(Options, BadValuesNameSourceOptionAndRange) {
+  Sample s;
+  OptionTable table = table_of(s);
+  for (const auto& [name, text] : {std::pair{"count", "2.5"}, {"count", "10"}, {"share", "nan"}, {"share", "half"},
+                                   {"scale", "0"}, {"solver", "magic"}, {"angles", "60,"}, {"flag", "maybe"}}) {
+    try {
+      table.set_text(name, text, "a.toml");
+      ADD_FAILURE() << name << " took " << text;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.source, "a.toml");
+      EXPECT_EQ(e.field, name);
+      EXPECT_FALSE(e.expected.empty());
+    }
+  }
+}
+
+TEST(Options, UnknownNameListsTheKnownOnes) {
+  Sample s;
+  OptionTable table = table_of(s);
+  try {
+    table.set_text("scales", "1", "command line");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("flag, count, share, scale, solver, angles"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace unseen
