@@ -58,7 +58,8 @@ struct TiltResidual {
   Vec3 jacobian;
   double value, weight;
 };
-std::array<TiltResidual, 2> tilt_residuals(const Patch& support, const Vec3& normal, double systematic);
+std::array<TiltResidual, 2> tilt_residuals(const PlaneFit& fit, const Vec3& normal, double variance_u,
+                                           double variance_v);
 
 /// How a constraint fails, and its change with a turn w of frame a: w·jacobian (of frame b: −w·jacobian).
 struct ConstraintResidual {

@@ -17,9 +17,11 @@ void add_line(std::vector<Vec3>& lines, const Vec3& line) {
 double nearest(const Vec3& direction, const OrientationFrame& frame, const std::vector<Vec3>& locals,
                const AngleSet& angles) {
   if (!frame.closed) return angles.deviation(line_angle(direction, frame.axes.col(0)));
-  double least = kPi;
-  for (const Vec3& l : locals) least = std::min(least, line_angle(direction, frame.direction(l)));
-  return least;
+  const Vec3 in_frame = frame.axes.transpose() * direction;
+  const Vec3* nearest = &locals.front();
+  for (const Vec3& l : locals)
+    if (std::abs(l.dot(in_frame)) > std::abs(nearest->dot(in_frame))) nearest = &l;
+  return line_angle(*nearest, in_frame);
 }
 
 }  // namespace
@@ -92,12 +94,11 @@ double irregularity(const OrientationFrame& a, const OrientationFrame& b, const 
   return 1.0 - std::exp(-3.0 * sum / count);
 }
 
-double tilt_chi2(const Patch& patch, const Vec3& normal, double systematic) {
+double tilt_chi2(const Patch& patch, const Vec3& normal) {
   const PlaneFit& fit = patch.fit;
   const double across = std::max(std::abs(normal.dot(fit.normal)), 1e-9);
   const double tu = normal.dot(fit.u) / across, tv = normal.dot(fit.v) / across;
-  const double floor = systematic * systematic + 1e-18;
-  return tu * tu / (patch.variance_u + floor) + tv * tv / (patch.variance_v + floor);
+  return tu * tu / patch.doubt_u + tv * tv / patch.doubt_v;
 }
 
 double data_cost(const Patch& patch, const Vec3& normal) {

@@ -44,11 +44,8 @@ OrientationFrame open_frame(const Vec3& a, const Space& space);
 double irregularity(const OrientationFrame& a, const OrientationFrame& b, const std::vector<Vec3>& locals,
                     const AngleSet& angles);
 
-/// Systematic tilt (rad) that scans have beyond their noise: registration, calibration, walls out of plumb.
-inline constexpr double kSystematicTilt = 0.3 * kPi / 180.0;
-
 /// χ²: by how many standard errors, squared, a patch's fitted normal differs from `normal`.
-double tilt_chi2(const Patch& patch, const Vec3& normal, double systematic = kSystematicTilt);
+double tilt_chi2(const Patch& patch, const Vec3& normal);
 
 /// D: what it costs to give a patch the orientation `normal` (Eq. 3.7 in terms of significance): near zero
 /// within a standard error, 0.5 at three, and growing with the squared tilt beyond.

@@ -11,9 +11,10 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kImpossible = 1e9;  // stands for an infinite cost, so that differences stay numbers
-constexpr int kSubsetFrames = 10;    // all subsets of this many frames are tried …
-constexpr int kSubsetPatches = 120;  // … for problems up to this size
+constexpr double kImpossible = 1e4;  // stands for an infinite cost, so that differences stay numbers
+constexpr int kSubsetFrames = 8;    // all subsets of this many frames are tried …
+constexpr int kSubsetPatches = 80;  // … for problems up to this size
+constexpr std::size_t kSwaps = 24;  // frames that may replace another, the most promising ones
 
 /// A problem with what the search asks for again and again.
 class Search {
@@ -124,30 +125,76 @@ class Search {
     return open;
   }
 
-  /// Opens the frame that gains most, again and again, judging by data and irregularity alone.
-  std::vector<int> greedy(std::vector<int> open) const {
-    std::vector<double> current(p_.patches(), kImpossible);
+  /// What the open frames offer each patch: the cheapest, and what is left if that one goes.
+  struct Offers {
+    std::vector<int> first;
+    std::vector<double> best, second;
+  };
+  Offers offers(const std::vector<int>& open) const {
+    Offers o{std::vector<int>(p_.patches(), -1), std::vector<double>(p_.patches(), kImpossible),
+             std::vector<double>(p_.patches(), kImpossible)};
     for (const int k : open)
-      for (int j = 0; j < p_.patches(); ++j) current[j] = std::min(current[j], cost(j, k));
-    std::vector<char> is_open(p_.frames(), 0);
-    for (const int k : open) is_open[k] = 1;
+      for (int j = 0; j < p_.patches(); ++j) {
+        const double c = cost(j, k);
+        if (c < o.best[j]) {
+          o.second[j] = o.best[j];
+          o.best[j] = c;
+          o.first[j] = k;
+        } else if (c < o.second[j]) {
+          o.second[j] = c;
+        }
+      }
+    return o;
+  }
+
+  /// Adds, drops or swaps the frame that gains most, again and again, judging by data and irregularity alone.
+  std::vector<int> open_frames(std::vector<int> open) const {
     while (true) {
       context_.check();
-      double best = -1e-12;
-      int add = -1;
+      const Offers now = offers(open);
+      double best = -1e-8;
+      int add = -1, drop = -1;
+      std::vector<std::pair<double, int>> additions;
       for (int k = 0; k < p_.frames(); ++k) {
-        if (is_open[k]) continue;
+        if (std::find(open.begin(), open.end(), k) != open.end()) continue;
         double change = opening(open, k);
-        for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - current[j]);
+        for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - now.best[j]);
+        additions.emplace_back(change, k);
         if (change < best) {
           best = change;
           add = k;
+          drop = -1;
         }
       }
-      if (add < 0) return open;
-      open.push_back(add);
-      is_open[add] = 1;
-      for (int j = 0; j < p_.patches(); ++j) current[j] = std::min(current[j], cost(j, add));
+      std::sort(additions.begin(), additions.end());
+      if (additions.size() > kSwaps) additions.resize(kSwaps);
+      for (const int o : open) {
+        if (p_.fixed[o] || open.size() == 1) continue;
+        std::vector<double> left = now.best;
+        double without = -opening(open, o);  // irregularity(o, o) is zero
+        for (int j = 0; j < p_.patches(); ++j)
+          if (now.first[j] == o) {
+            left[j] = now.second[j];
+            without += now.second[j] - now.best[j];
+          }
+        if (without < best) {
+          best = without;
+          add = -1;
+          drop = o;
+        }
+        for (const auto& [gain, k] : additions) {
+          double change = without + opening(open, k) - (1.0 - p_.lambda) * p_.irregularity(o, k);
+          for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - left[j]);
+          if (change < best) {
+            best = change;
+            add = k;
+            drop = o;
+          }
+        }
+      }
+      if (add < 0 && drop < 0) return open;
+      if (drop >= 0) std::erase(open, drop);
+      if (add >= 0) open.push_back(add);
     }
   }
 
@@ -169,33 +216,28 @@ class Search {
     return s;
   }
 
-  /// Adds, drops and swaps one frame at a time while that lowers the energy.
+  /// Adds and drops one frame at a time while that lowers the whole energy.
   State improve(State state) const {
-    for (int round = 0; round < 50; ++round) {
+    for (int round = 0; round < 10; ++round) {
       context_.check();
       State best = state;
       const auto attempt = [&](const std::vector<int>& open) {
         if (open.empty()) return;
         State s = evaluate(open);
-        if (s.energy < best.energy - 1e-10) best = std::move(s);
+        if (s.energy < best.energy - 1e-8) best = std::move(s);
       };
       for (const int k : state.open) {
         if (p_.fixed[k]) continue;
         std::vector<int> rest = state.open;
         std::erase(rest, k);
         attempt(rest);
-        for (const int other : promising(rest, 6)) {
-          std::vector<int> swapped = rest;
-          swapped.push_back(other);
-          attempt(swapped);
-        }
       }
-      for (const int other : promising(state.open, 8)) {
+      for (const int other : promising(state.open, 4)) {
         std::vector<int> grown = state.open;
         grown.push_back(other);
         attempt(grown);
       }
-      if (!(best.energy < state.energy - 1e-10)) return state;
+      if (!(best.energy < state.energy - 1e-8)) return state;
       state = std::move(best);
     }
     return state;
@@ -203,14 +245,12 @@ class Search {
 
   /// The closed frames whose opening beside `open` changes data and irregularity for the better, best first.
   std::vector<int> promising(const std::vector<int>& open, std::size_t count) const {
-    std::vector<double> current(p_.patches(), kImpossible);
-    for (const int k : open)
-      for (int j = 0; j < p_.patches(); ++j) current[j] = std::min(current[j], cost(j, k));
+    const Offers now = offers(open);
     std::vector<std::pair<double, int>> ranked;
     for (int k = 0; k < p_.frames(); ++k) {
       if (std::find(open.begin(), open.end(), k) != open.end()) continue;
       double change = opening(open, k);
-      for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - current[j]);
+      for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - now.best[j]);
       ranked.emplace_back(change, k);
     }
     std::sort(ranked.begin(), ranked.end());
@@ -236,7 +276,7 @@ class Search {
       if (open.empty()) continue;
       if ((set & 63) == 0) context_.check();
       State s = evaluate(open);
-      if (s.energy < best.energy - 1e-10) best = std::move(s);
+      if (s.energy < best.energy - 1e-8) best = std::move(s);
     }
     return best;
   }
@@ -264,26 +304,30 @@ Energy energy_of(const SelectionProblem& problem, const Labels& labels) {
   return e;
 }
 
-Labels solve_local(const SelectionProblem& problem, const Context& context) {
+Labels solve_local(const SelectionProblem& problem, const Context& context, const Labels& start) {
   if (problem.patches() == 0) return {};
   const Search search(problem, context);
   const std::vector<int> fixed = search.fixed();
   Search::State best;
-  const auto attempt = [&](const std::vector<int>& open) {
-    Search::State s = search.improve(search.evaluate(open));
-    if (s.energy < best.energy - 1e-10) best = std::move(s);
+  const auto attempt = [&](std::vector<int> open) {
+    Search::State s = search.improve(search.evaluate(search.open_frames(std::move(open))));
+    if (s.energy < best.energy - 1e-8) best = std::move(s);
   };
-  attempt(search.greedy(fixed));
+  attempt(fixed);
+  if (!start.empty()) {
+    std::vector<int> open = fixed;
+    for (const int k : start)
+      if (std::find(open.begin(), open.end(), k) == open.end()) open.push_back(k);
+    attempt(std::move(open));
+  }
+  if (problem.patches() > kSubsetPatches) return best.labels;
   // Other starts: from each of the frames that would be best alone.
-  for (const int k : search.promising(fixed, problem.patches() <= kSubsetPatches ? 4 : 1)) {
+  for (const int k : search.promising(fixed, 3)) {
     std::vector<int> open = fixed;
     open.push_back(k);
-    attempt(search.greedy(open));
+    attempt(std::move(open));
   }
-  if (problem.patches() <= kSubsetPatches) {
-    best = search.improve(search.all_subsets(best));
-  }
-  return best.labels;
+  return search.improve(search.all_subsets(best)).labels;
 }
 
 }  // namespace unseen::planes

@@ -11,6 +11,10 @@
 namespace unseen::planes {
 namespace {
 
+constexpr double kSystematicTilt = 0.5 * kPi / 180.0;  // rad: registration, calibration, walls out of plumb
+constexpr double kMostPoints = 30;    // noise is correlated over long distances: no patch counts for more points
+constexpr double kScaleShare = 0.03;  // of the scale: rims and clutter pull a patch's edge by as much
+
 /// Variance (rad²) of the tilt that a least-squares plane has along `axis`. Residuals are summed by blocks of a
 /// grid over the patch, so that noise that is correlated over up to a block's size counts as what it is
 /// (cluster-robust "sandwich" estimate: Liang & Zeger, Biometrika 73, 1986).
@@ -77,6 +81,13 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
   patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u);
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v);
+  const auto doubt = [&](double variance, double spread) {
+    const double width = std::max(spread, 1e-300);
+    return std::max(variance, fit.rms * fit.rms / (kMostPoints * width * width)) + kSystematicTilt * kSystematicTilt +
+           std::pow(kScaleShare * 2.0 * grid.edge / width, 2);
+  };
+  patch.doubt_u = doubt(patch.variance_u, fit.spread_u);
+  patch.doubt_v = doubt(patch.variance_v, fit.spread_v);
   return patch;
 }
 

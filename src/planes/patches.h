@@ -17,6 +17,8 @@ struct Patch {
   double area = 0;        ///< m², of a rectangle with the same spread (2D: length, m)
   double variance_u = 0;  ///< rad², of the fitted normal's tilt along u, robust to noise that is correlated
   double variance_v = 0;  ///< the same along v
+  double doubt_u = 0;     ///< rad², of that tilt when patches are compared: more than noise is at work in scans
+  double doubt_v = 0;     ///< the same along v
 };
 
 struct Patches {

@@ -49,13 +49,15 @@ OrientationFrame fit_constrained(const Problem& p, OrientationFrame frame, const
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(3 + rows, 3 + rows);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(3 + rows);
     double largest = 0;
-    for (const Member& m : members)
+    for (const Member& m : members) {
+      const Patch& patch = p.patch(m);
       for (const TiltResidual& r :
-           tilt_residuals(p.patch(m), frame.direction(p.locals[m.local]), kSystematicTilt)) {
+           tilt_residuals(patch.fit, frame.direction(p.locals[m.local]), patch.doubt_u, patch.doubt_v)) {
         system.topLeftCorner<3, 3>() += r.weight * r.jacobian * r.jacobian.transpose();
         right.head<3>() -= r.weight * r.value * r.jacobian;
         largest = std::max(largest, r.weight);
       }
+    }
     system.diagonal().head<3>().array() += 1e-6 * largest;
     for (int i = 0; i < rows; ++i) {
       const ConstraintResidual r = residual_of(constraints[i], frame.axes, earlier[constraints[i].b].axes);

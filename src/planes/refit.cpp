@@ -13,12 +13,11 @@ constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no surface is known bette
 
 }  // namespace
 
-std::array<TiltResidual, 2> tilt_residuals(const Patch& support, const Vec3& normal, double systematic) {
-  const PlaneFit& fit = support.fit;
-  const double floor = systematic * systematic + 1e-18;
+std::array<TiltResidual, 2> tilt_residuals(const PlaneFit& fit, const Vec3& normal, double variance_u,
+                                           double variance_v) {
   // Turning by w moves n by w × n, so its component along u by w·(n × u).
-  return {TiltResidual{normal.cross(fit.u), normal.dot(fit.u), 1.0 / (support.variance_u + floor)},
-          TiltResidual{normal.cross(fit.v), normal.dot(fit.v), 1.0 / (support.variance_v + floor)}};
+  return {TiltResidual{normal.cross(fit.u), normal.dot(fit.u), 1.0 / variance_u},
+          TiltResidual{normal.cross(fit.v), normal.dot(fit.v), 1.0 / variance_v}};
 }
 
 ConstraintResidual residual_of(const Constraint& c, const Mat3& axes_a, const Mat3& axes_b) {
@@ -43,13 +42,16 @@ void refit(Model& model) {
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(total, total);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(total);
     double largest = 0;
-    for (const Surface& surface : model.surfaces)
-      for (const TiltResidual& r : tilt_residuals(surface.support, model.normal(surface), kFloor)) {
+    for (const Surface& surface : model.surfaces) {
+      const Patch& s = surface.support;
+      for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), s.variance_u + kFloor * kFloor,
+                                                  s.variance_v + kFloor * kFloor)) {
         const int at = 3 * surface.frame;
         system.block<3, 3>(at, at) += r.weight * r.jacobian * r.jacobian.transpose();
         right.segment<3>(at) -= r.weight * r.value * r.jacobian;
         largest = std::max(largest, r.weight);
       }
+    }
     // What no surface determines stays where it is.
     system.diagonal().head(turns).array() += 1e-9 * largest;
     for (std::size_t i = 0; i < model.constraints.size(); ++i) {

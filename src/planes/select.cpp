@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "planes/arrange.h"
+
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kFirstRound = 120;  // patches that are selected at once, at least
+constexpr std::size_t kFirstRound = 80;  // patches that are selected at once, at least
 constexpr double kExplained = 0.05;       // data cost below which a patch asks for no new frame
 constexpr double kSameOrientation = 0.5 * kPi / 180.0;
 
@@ -69,33 +71,23 @@ std::vector<OrientationFrame> refit_used(const Patches& patches, const std::vect
 OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
                              const std::vector<std::pair<const Patch*, int>>& members) {
   OrientationFrame result = frame;
-  const double floor = kSystematicTilt * kSystematicTilt;
   for (int iteration = 0; iteration < 5; ++iteration) {
     Mat3 information = Mat3::Zero();
     Vec3 gradient = Vec3::Zero();
-    for (const auto& [patch, local] : members) {
-      const PlaneFit& fit = patch->fit;
-      const Vec3 n = result.direction(locals[local]);
-      // Turning by w moves n by w × n, so its component along u by w·(n × u).
-      const auto add = [&](const Vec3& axis, double variance) {
-        const Vec3 j = n.cross(axis);
-        information += j * j.transpose() / (variance + floor);
-        gradient -= j * n.dot(axis) / (variance + floor);
-      };
-      add(fit.u, patch->variance_u);
-      add(fit.v, patch->variance_v);
-    }
+    for (const auto& [patch, local] : members)
+      for (const TiltResidual& r :
+           tilt_residuals(patch->fit, result.direction(locals[local]), patch->doubt_u, patch->doubt_v)) {
+        information += r.weight * r.jacobian * r.jacobian.transpose();
+        gradient -= r.weight * r.value * r.jacobian;
+      }
     Eigen::SelfAdjointEigenSolver<Mat3> eigen(information);
     Vec3 w = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
       if (eigen.eigenvalues()[i] > 1e-9 * eigen.eigenvalues()[2])
         w += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).dot(gradient) / eigen.eigenvalues()[i];
-    if (w.norm() > 0) result.axes = Eigen::AngleAxisd(w.norm(), w.normalized()) * result.axes;
+    result.axes = turned(result.axes, w);
     if (w.norm() < 1e-12) break;
   }
-  result.axes.col(0).normalize();
-  result.axes.col(2) = result.axes.col(0).cross(result.axes.col(1)).normalized();
-  result.axes.col(1) = result.axes.col(2).cross(result.axes.col(0));
   return result;
 }
 
@@ -174,7 +166,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       for (OrientationFrame& f : refit_used(patches, round, frames, fixed, labels, locals, patch_angle))
         pool.push_back(std::move(f));
       SelectionProblem next = problem_of(pool);
-      Labels again = solve_local(next, context);
+      Labels again = solve_local(next, context, labels);
       if (energy_of(next, again).total() > energy_of(problem, labels).total() - 1e-9) break;
       frames = std::move(pool);
       problem = std::move(next);

@@ -35,9 +35,10 @@ using Labels = std::vector<int>;  ///< frame of each patch
 
 Energy energy_of(const SelectionProblem& problem, const Labels& labels);
 
-/// Greedy opening of frames, then adding, dropping and swapping frames with labels relaxed by moves of single
-/// patches and of connected parts; every subset of the best few frames while the problem is small.
-Labels solve_local(const SelectionProblem& problem, const Context& context);
+/// Adds, drops and swaps frames while that lowers data and irregularity, then with labels relaxed by moves of
+/// single patches and of connected parts; from several starts, `start` among them if given, and through every
+/// subset of the best few frames while the problem is small.
+Labels solve_local(const SelectionProblem& problem, const Context& context, const Labels& start = {});
 
 /// A lower bound on the energy of any selection: branch and bound on frames, without the smoothness term,
 /// cut off after a fixed number of nodes.
