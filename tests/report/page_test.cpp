@@ -57,6 +57,7 @@ TEST(Page, StandsAloneAndShowsEveryPlane) {
   EXPECT_NE(page.find("<title>Planes of room.ply</title>"), std::string::npos);
   EXPECT_EQ(occurrences(page, "<svg "), 3u);
   EXPECT_EQ(occurrences(page, "class=\"plane\""), 10u);
+  EXPECT_EQ(page.find("-0.0000"), std::string::npos);
   EXPECT_NE(page.find("normals unusable: &lt;re-estimated&gt;"), std::string::npos);
   for (const char* tag : {"table", "div", "figure", "svg", "pre", "p", "h2", "tr", "span"})
     EXPECT_EQ(
