@@ -1,7 +1,72 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <cstdio>
+#include <fmt/format.h>
 
+#include <cstdio>
+#include <new>
+
+#include "commands.h"
+#include "flags.h"
+#include "unseen/core/error.h"
 #include "unseen/core/version.h"
 
-int main() { std::printf("unseen %s\n", unseen::kVersion); }
+namespace unseen::cli {
+namespace {
+
+int report(int code, const std::string& text) {
+  fmt::print(stderr, "unseen: {}\n", text);
+  return code;
+}
+
+/// "unseen synth planes": the subcommand that was asked for, as one types it.
+std::string command_name(const CLI::App& app) {
+  std::string name = app.get_name();
+  for (const CLI::App* at = &app; !at->get_subcommands().empty(); name += " " + at->get_name())
+    at = at->get_subcommands().front();
+  return name;
+}
+
+/// Runs what the command line asks for and turns every outcome into an exit code.
+int run(const CLI::App& app, const std::vector<Command>& commands) {
+  try {
+    for (const Command& command : commands)
+      if (command.app->parsed()) return command.run();
+    return report(kUsage, "a subcommand is missing; see unseen --help");
+  } catch (const UsageError& e) {
+    return report(kUsage, fmt::format("{}; see {} --help", e.what(), command_name(app)));
+  } catch (const InputError& e) {
+    return report(e.source == kCommandLine ? kUsage : kBadInput, e.what());
+  } catch (const Cancelled&) {
+    return report(kInterrupted, "interrupted; nothing was written");
+  } catch (const std::bad_alloc&) {
+    return report(kFault, "not enough memory");
+  } catch (const std::exception& e) {
+    return report(kFault, fmt::format("internal fault: {}", e.what()));
+  }
+}
+
+}  // namespace
+}  // namespace unseen::cli
+
+int main(int argc, char** argv) {
+  using namespace unseen::cli;
+  CLI::App app("Finds out what a scan or a video does not show.", "unseen");
+  app.set_version_flag("--version", fmt::format("unseen {}", unseen::kVersion));
+  app.require_subcommand(1);
+  app.footer("Each subcommand has its own --help with an example.\n"
+             "Exit codes: 0 solved, 2 usage, 3 bad input, 4 no solution, 130 interrupted, 1 internal fault.");
+  CLI::App* synth = app.add_subcommand("synth", "Make a scene with exact truth");
+  CLI::App* evaluate = app.add_subcommand("evaluate", "Measure a result against truth");
+  synth->require_subcommand(1)->footer("Example:\n  unseen synth planes -o room --seed 7");
+  evaluate->require_subcommand(1)->footer("Example:\n  unseen evaluate planes OUT --truth house.obj");
+  const std::vector<Command> commands = {add_planes(app, shell_command(argc, argv)), add_convert(app),
+                                         add_synth_planes(*synth), add_evaluate_planes(*evaluate)};
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return report(kUsage, fmt::format("{}; see {} --help", e.what(), command_name(app)));
+  }
+  return run(app, commands);
+}

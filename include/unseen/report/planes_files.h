@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "unseen/planes/types.h"
+#include "unseen/report/point_sample.h"
+
+namespace unseen::report {
+
+/// planes.ply: the polygons as triangles, each with its plane, frame and colour; 2D: line segments as edges.
+std::string planes_ply(const planes::Arrangement& arrangement);
+
+/// planes.obj: one group a plane, one material a frame from `material_file`; 2D: line elements.
+std::string planes_obj(const planes::Arrangement& arrangement, const std::string& material_file);
+
+/// The materials that planes_obj refers to.
+std::string planes_mtl(const planes::Arrangement& arrangement);
+
+/// scene.glb (binary glTF 2.0): a node a plane, "plane 12 (wall)", coloured by frame, and a node "points".
+/// The root node turns z up into glTF's y up. Coordinates far from the origin (UTM) are stored relative to an
+/// offset, which stands in the root node's extras as "offset": world = stored + offset.
+std::string planes_glb(const planes::Arrangement& arrangement, const PointSample& points);
+
+/// "plane 12 (wall)", or "plane 12" if it has no tag.
+std::string plane_name(const planes::Arrangement& arrangement, std::size_t plane);
+
+}  // namespace unseen::report

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+
+#include "io/columns.h"
+#include "io/readers.h"
+#include "io/sniff.h"
+#include "io/text.h"
+#include "unseen/core/error.h"
+
+namespace unseen::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_tile(const fs::path& path) {
+  std::string extension = lower(path.extension().string());
+  if (!extension.empty()) extension.erase(0, 1);
+  switch (format_of_extension(extension)) {
+    case Format::ply:
+    case Format::pcd:
+    case Format::las:
+    case Format::e57:
+    case Format::ptx:
+    case Format::text:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// One file after another; only one is open at a time.
+class TilesSource final : public PointSource {
+ public:
+  TilesSource(const fs::path& folder, const ReadOptions& options) : options_(options) {
+    info_.name = folder.string();
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.is_regular_file() && is_tile(entry.path())) paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    info_.point_count = 0;
+    info_.two_dimensional = true;
+    for (const fs::path& path : paths) inspect(path);
+    if (tiles_.empty())
+      throw InputError(info_.name, "folder",
+                       paths.empty() ? "no point files" : "no usable tile (" + info_.notes.front() + ")",
+                       "point files, or depth frames with camera-intrinsics.txt");
+    info_.has_normals = keep_.normals;
+    if (dropped_) info_.notes.push_back("normals, colours or labels that only some tiles have left out");
+  }
+
+  SourceInfo info() const override { return info_; }
+
+  void rewind() override {
+    at_ = 0;
+    tile_.reset();
+  }
+
+  bool next(PointCloud& block) override {
+    while (at_ < tiles_.size()) {
+      if (!tile_) tile_ = open_file(input_from(tiles_[at_], options_));
+      if (tile_->next(block)) {
+        if (!keep_.normals) block.normals.clear();
+        if (!keep_.colors) block.colors.clear();
+        if (!keep_.labels) block.labels.clear();
+        return true;
+      }
+      tile_.reset();
+      ++at_;
+    }
+    return false;
+  }
+
+ private:
+  /// Reads a tile once, so that what is broken is known before anything is computed.
+  void inspect(const fs::path& path) {
+    try {
+      const auto tile = open_file(input_from(path, options_));
+      PointCloud block;
+      std::size_t count = 0;
+      Attributes has;
+      while (tile->next(block)) {
+        count += block.size();
+        has = {!block.normals.empty(), !block.colors.empty(), !block.labels.empty()};
+      }
+      if (count == 0) throw InputError(path.string(), "content", "no points", "points");
+      add(path, tile->info(), has, count);
+    } catch (const InputError& error) {
+      info_.notes.push_back(std::string("tile left out: ") + error.what());
+    }
+  }
+
+  void add(const fs::path& path, const SourceInfo& info, const Attributes& has, std::size_t count) {
+    for (const std::string& note : info.notes) {
+      std::string line = path.filename().string() + ": " + note;
+      info_.notes.push_back(std::move(line));
+    }
+    const auto merge = [&](bool& keep, bool tile_has) {
+      if (!tiles_.empty() && keep != tile_has) dropped_ = true;
+      keep = (tiles_.empty() || keep) && tile_has;
+    };
+    merge(keep_.normals, has.normals);
+    merge(keep_.colors, has.colors);
+    merge(keep_.labels, has.labels);
+    info_.two_dimensional = info_.two_dimensional && info.two_dimensional;
+    *info_.point_count += count;
+    tiles_.push_back(path);
+  }
+
+  ReadOptions options_;
+  SourceInfo info_;
+  std::vector<fs::path> tiles_;
+  Attributes keep_;  ///< what all tiles have
+  bool dropped_ = false;
+  std::size_t at_ = 0;
+  std::unique_ptr<PointSource> tile_;
+};
+
+}  // namespace
+
+std::unique_ptr<PointSource> open_tiles(const fs::path& folder, const ReadOptions& options) {
+  return std::make_unique<TilesSource>(folder, options);
+}
+
+}  // namespace unseen::io

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "planes/arrange.h"
+
+namespace unseen::planes {
+
+/// Which planes each voxel's points can belong to, and which one a point does.
+struct Reach {
+  std::vector<Plane> planes;
+  std::vector<std::uint32_t> first;   ///< per voxel: where its candidates start; one longer than the voxels
+  std::vector<std::int32_t> candidate;  ///< plane indices, ascending within a voxel
+  std::vector<double> tolerance;      ///< m, per voxel: a point farther than this has no plane
+  bool use_point_normals = false;     ///< input normals are checked (45°); else the voxel's own was
+};
+
+/// A plane reaches a voxel if one of its supporting voxels lies within about the scale of it, and if the
+/// voxel's normal, where it has one, is within 45° of the plane's.
+Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, bool use_point_normals,
+                 const Context& context);
+
+/// Plane of each point of a block: the nearest that reaches it; −1 = none or not finite.
+void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
+                   const Context& context);
+
+__extension__ using Int128 = __int128;
+
+/// Moments of the points assigned to each plane, in integers so that their order does not matter.
+class PlaneSums {
+ public:
+  PlaneSums(const Model& model, double scale);
+  void add(const PointCloud& block, std::span<const int> plane_of_point, const std::vector<bool>& skip);
+  Moments moments(std::size_t plane) const;
+
+ private:
+  struct Sums {
+    std::int64_t count = 0;
+    std::array<std::int64_t, 3> first{};
+    std::array<Int128, 6> second{};
+  };
+  double step_;
+  std::vector<Vec3> origin_;
+  std::vector<Sums> sums_;
+};
+
+}  // namespace unseen::planes

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unseen::planes {
+namespace {
+
+constexpr int kLevels = 4;
+constexpr double kFlattest = 0.15;       // λ₀/λ₁ above which a neighbourhood has no reliable normal
+constexpr double kNormalError = 0.06;    // rad, largest standard error of a normal
+
+struct Level {
+  VoxelGrid grid;                 // empty for level 0: the input grid itself
+  std::vector<int> parent;        // of each voxel of level 0
+};
+
+/// Moments of everything within `radius` of `center`.
+Moments gather(const VoxelGrid& grid, const VoxelKey& key, const Vec3& center, double radius) {
+  double n = 0;
+  Vec3 first = Vec3::Zero();
+  Mat3 second = Mat3::Zero();
+  grid.for_neighbours(key, 2, [&](int i) {
+    const Moments& m = grid.moments[i];
+    const Vec3 d = m.mean - center;
+    if (d.squaredNorm() > radius * radius) return;
+    n += m.count;
+    first += m.count * d;
+    second += m.scatter + m.count * d * d.transpose();
+  });
+  Moments m;
+  m.count = n;
+  m.mean = center + first / n;
+  m.scatter = second - first * first.transpose() / n;
+  return m;
+}
+
+/// The line that most input normals of a voxel lie along, if they agree; else zero.
+Vec3 input_normal(const Mat3& sum, const Space& space) {
+  if (!(sum.trace() > 0.5)) return Vec3::Zero();
+  Eigen::SelfAdjointEigenSolver<Mat3> eigen(sum);
+  if (eigen.eigenvalues()[2] < 0.8 * sum.trace()) return Vec3::Zero();
+  const Vec3 n = space.admissible(eigen.eigenvectors().col(2));
+  return n.norm() > 0.5 ? Vec3(n.normalized()) : Vec3::Zero();
+}
+
+bool reliable(const PlaneFit& fit, double count, const Space& space) {
+  const double least = space.is_2d() ? 4 : 8;
+  const double spread = space.is_2d() ? fit.spread_u : fit.spread_v;
+  return count >= least && fit.rms * fit.rms <= kFlattest * spread * spread &&
+         fit.rms <= kNormalError * spread * std::sqrt(count);
+}
+
+}  // namespace
+
+Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& context) {
+  std::vector<Level> levels(kLevels);
+  for (int l = 1; l < kLevels; ++l) {
+    const VoxelGrid& finer = l == 1 ? grid : levels[l - 1].grid;
+    std::vector<int> up;
+    levels[l].grid = finer.coarser(up);
+    if (l == 1) {
+      levels[l].parent = std::move(up);
+    } else {
+      levels[l].parent.resize(grid.size());
+      for (std::size_t i = 0; i < grid.size(); ++i) levels[l].parent[i] = up[levels[l - 1].parent[i]];
+    }
+  }
+  Cells cells;
+  cells.normal.assign(grid.size(), Vec3::Zero());
+  cells.variation.assign(grid.size(), 1.0);
+  cells.tolerance.assign(grid.size(), 2.0 * grid.edge);
+  parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3& center = grid.moments[i].mean;
+      for (int l = 0; l < kLevels; ++l) {
+        const VoxelGrid& g = l == 0 ? grid : levels[l].grid;
+        const VoxelKey& key = l == 0 ? grid.keys[i] : g.keys[levels[l].parent[i]];
+        const Moments m = gather(g, key, center, 2.0 * g.edge);
+        const PlaneFit fit = fit_plane(m, space);
+        if (!reliable(fit, m.count, space)) continue;
+        cells.normal[i] = fit.normal;
+        const double rms2 = fit.rms * fit.rms;
+        // Coarser neighbourhoods come later: their flatness hides more.
+        cells.variation[i] = l + rms2 / (rms2 + fit.spread_u * fit.spread_u + fit.spread_v * fit.spread_v);
+        break;
+      }
+      if (cells.normal[i].isZero() && !grid.normals.empty()) {
+        cells.normal[i] = input_normal(grid.normals[i], space);
+        if (!cells.normal[i].isZero()) cells.variation[i] = kLevels;
+      }
+    }
+  });
+  return cells;
+}
+
+void adapt_tolerance(Cells& cells, const VoxelGrid& grid, const std::optional<Vec3>& viewpoint) {
+  const double scale = 2.0 * grid.edge;
+  std::vector<double> factor(grid.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Moments& m = grid.moments[i];
+    factor[i] = viewpoint ? (m.mean - *viewpoint).norm()
+                          : std::sqrt(std::max(0.0, cells.normal[i].dot(m.scatter * cells.normal[i])) / m.count);
+  }
+  std::vector<double> sorted = factor;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  if (!(*middle > 0.0)) return;
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    cells.tolerance[i] = scale * std::clamp(factor[i] / *middle, 1.0, 4.0);
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "planes/voxels.h"
+
+namespace unseen::planes {
+
+/// What is known of the surface in each voxel, parallel to VoxelGrid::keys.
+struct Cells {
+  std::vector<Vec3> normal;       ///< unit length, sign arbitrary; zero where no orientation is reliable
+  std::vector<double> variation;  ///< λ₀/(λ₀+λ₁+λ₂) of the neighbourhood, 0 = flat; 1 where there is no normal
+  std::vector<double> tolerance;  ///< m, the local scale: ρ, or more with an adaptive scale
+};
+
+/// Estimates each voxel's normal by PCA over the smallest of the radii ρ, 2ρ, 4ρ, 8ρ (grid.edge = ρ/2) whose
+/// neighbourhood is flat enough to have one; where there is none, from the input's own normals.
+Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& context);
+
+/// Local scale: grows with the distance to `viewpoint` beyond the median distance, or, without one, with the
+/// local noise, up to four times ρ.
+void adapt_tolerance(Cells& cells, const VoxelGrid& grid, const std::optional<Vec3>& viewpoint);
+
+}  // namespace unseen::planes

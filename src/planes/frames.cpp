@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unseen::planes {
+namespace {
+
+void add_line(std::vector<Vec3>& lines, const Vec3& line) {
+  for (const Vec3& l : lines)
+    if (line_angle(l, line) < 1e-9) return;
+  lines.push_back(line);
+}
+
+double nearest(const Vec3& direction, const OrientationFrame& frame, const std::vector<Vec3>& locals,
+               const AngleSet& angles) {
+  if (!frame.closed) return angles.deviation(line_angle(direction, frame.axes.col(0)));
+  double least = kPi;
+  for (const Vec3& l : locals) least = std::min(least, line_angle(direction, frame.direction(l)));
+  return least;
+}
+
+}  // namespace
+
+double AngleSet::deviation(double angle) const {
+  double least = kPi;
+  for (const double theta : all)
+    least = std::min({least, std::abs(theta - angle), std::abs(theta - (kPi - angle))});
+  return least;
+}
+
+AngleSet make_angles(const std::vector<double>& generators) {
+  AngleSet set;
+  set.all.push_back(0.0);
+  for (const double g : generators)
+    for (int k = 1; k * g < kPi - 1e-9; ++k) set.all.push_back(k * g);
+  std::sort(set.all.begin(), set.all.end());
+  set.all.erase(std::unique(set.all.begin(), set.all.end(), [](double a, double b) { return b - a < 1e-9; }),
+                set.all.end());
+  for (const double a : set.all) set.has_right_angle = set.has_right_angle || std::abs(a - kPi / 2) < 1e-9;
+  return set;
+}
+
+std::vector<Vec3> local_directions(const AngleSet& angles, const Space& space) {
+  const Mat3 axes = Mat3::Identity();
+  std::vector<Vec3> lines;
+  const int generators = angles.has_right_angle ? (space.is_2d() ? 2 : 3) : 1;
+  for (int a = 0; a < generators; ++a) lines.push_back(axes.col(a));
+  for (int a = 0; a < generators; ++a)
+    for (int b = 0; b < 3; ++b) {
+      if (a == b || ((space.is_2d() || !angles.has_right_angle) && b != 2)) continue;
+      for (const double theta : angles.all)
+        add_line(lines, Eigen::AngleAxisd(theta, axes.col(b)) * Vec3(axes.col(a)));
+    }
+  return lines;
+}
+
+OrientationFrame close_frame(const Vec3& a, const Vec3& b, const Space& space) {
+  OrientationFrame frame;
+  frame.closed = true;
+  const Vec3 third = space.is_2d() ? *space.flat_axis : Vec3(a.cross(b).normalized());
+  frame.axes << a, third.cross(a).normalized(), third;
+  return frame;
+}
+
+OrientationFrame open_frame(const Vec3& a, const Space& space) {
+  // In 2D the plane closes every direction.
+  OrientationFrame frame = close_frame(a, any_orthogonal(a), space);
+  frame.closed = space.is_2d();
+  return frame;
+}
+
+double irregularity(const OrientationFrame& a, const OrientationFrame& b, const std::vector<Vec3>& locals,
+                    const AngleSet& angles) {
+  double sum = 0;
+  int count = 0;
+  const auto add = [&](const OrientationFrame& from, const OrientationFrame& to) {
+    if (!from.closed) {
+      sum += nearest(from.axes.col(0), to, locals, angles);
+      ++count;
+      return;
+    }
+    for (const Vec3& l : locals) {
+      sum += nearest(from.direction(l), to, locals, angles);
+      ++count;
+    }
+  };
+  add(a, b);
+  add(b, a);
+  return 1.0 - std::exp(-3.0 * sum / count);
+}
+
+double tilt_chi2(const Patch& patch, const Vec3& normal, double systematic) {
+  const PlaneFit& fit = patch.fit;
+  const double across = std::max(std::abs(normal.dot(fit.normal)), 1e-9);
+  const double tu = normal.dot(fit.u) / across, tv = normal.dot(fit.v) / across;
+  const double floor = systematic * systematic + 1e-18;
+  return tu * tu / (patch.variance_u + floor) + tv * tv / (patch.variance_v + floor);
+}
+
+double data_cost(const Patch& patch, const Vec3& normal) {
+  const double chi2 = tilt_chi2(patch, normal);
+  return chi2 * chi2 / (9.0 * (chi2 + 9.0));
+}
+
+Candidate best_candidate(const Patch& patch, const OrientationFrame& frame, const std::vector<Vec3>& locals,
+                         double angle) {
+  Candidate best;
+  const double cos_angle = std::cos(angle);
+  const std::size_t count = frame.closed ? locals.size() : 1;
+  for (std::size_t l = 0; l < count; ++l) {
+    const Vec3 n = frame.closed ? frame.direction(locals[l]) : Vec3(frame.axes.col(0));
+    if (std::abs(n.dot(patch.fit.normal)) < cos_angle) continue;
+    const double cost = data_cost(patch, n);
+    if (cost < best.cost) best = {cost, static_cast<int>(l)};
+  }
+  return best;
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+
+#include "planes/selection.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr std::size_t kNodes = 4000;
+
+/// A subproblem: the first `decided` frames of the branching order are open or closed.
+struct Node {
+  double bound = 0;
+  std::size_t decided = 0;
+  std::vector<char> state;  // per frame: 0 undecided, 1 open, 2 closed
+  bool operator<(const Node& o) const { return bound > o.bound; }  // smallest bound on top
+};
+
+double bound_of(const SelectionProblem& p, const std::vector<char>& state) {
+  double sum = 0;
+  for (int j = 0; j < p.patches(); ++j) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < p.frames(); ++k)
+      if (state[k] != 2) least = std::min(least, p.data(j, k));
+    sum += p.lambda * least;
+  }
+  for (int a = 0; a < p.frames(); ++a)
+    if (state[a] == 1)
+      for (int b = 0; b < a; ++b)
+        if (state[b] == 1) sum += (1.0 - p.lambda) * p.irregularity(a, b);
+  return sum;
+}
+
+}  // namespace
+
+double lower_bound(const SelectionProblem& p, double upper, const Context& context) {
+  if (p.patches() == 0) return energy_of(p, {}).total();
+  // Branch first on the frames that matter most: those whose absence costs the most data.
+  std::vector<double> weight(p.frames(), 0.0);
+  for (int j = 0; j < p.patches(); ++j) {
+    double first = 1e9, second = 1e9;
+    int who = -1;
+    for (int k = 0; k < p.frames(); ++k) {
+      const double d = std::min(p.data(j, k), 1e9);
+      if (d < first) {
+        second = first;
+        first = d;
+        who = k;
+      } else {
+        second = std::min(second, d);
+      }
+    }
+    if (who >= 0) weight[who] += second - first;
+  }
+  std::vector<int> order;
+  Node root;
+  root.state.assign(p.frames(), 0);
+  for (int k = 0; k < p.frames(); ++k) {
+    if (p.fixed[k]) {
+      root.state[k] = 1;
+    } else {
+      order.push_back(k);
+    }
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight[a] > weight[b]; });
+  root.bound = bound_of(p, root.state);
+  std::priority_queue<Node> open;
+  open.push(root);
+  for (std::size_t n = 0; n < kNodes && !open.empty(); ++n) {
+    if ((n & 63) == 0) context.check();
+    const Node node = open.top();
+    if (node.bound >= upper || node.decided == order.size()) break;
+    open.pop();
+    for (const char state : {char{1}, char{2}}) {
+      Node child = node;
+      child.state[order[node.decided]] = state;
+      ++child.decided;
+      child.bound = std::max(node.bound, bound_of(p, child.state));
+      if (child.bound < upper) open.push(std::move(child));
+    }
+  }
+  return open.empty() ? upper : std::min(upper, open.top().bound);
+}
+
+}  // namespace unseen::planes

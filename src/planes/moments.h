@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <optional>
+
+#include "unseen/core/geometry.h"
+
+namespace unseen::planes {
+
+/// The space that planes are sought in: all of 3D, or a drawing, whose points share one coordinate. In a
+/// drawing a "plane" is a line; its normal is orthogonal to `flat_axis`.
+struct Space {
+  std::optional<Vec3> flat_axis;
+
+  bool is_2d() const { return flat_axis.has_value(); }
+  /// The part of `v` that a normal may have.
+  Vec3 admissible(const Vec3& v) const { return flat_axis ? Vec3(v - v.dot(*flat_axis) * *flat_axis) : v; }
+};
+
+/// Zeroth, first and second moments of a set of points; sums of them are exact up to rounding.
+struct Moments {
+  double count = 0;
+  Vec3 mean = Vec3::Zero();
+  Mat3 scatter = Mat3::Zero();  ///< Σ (p − mean)(p − mean)ᵀ, m²
+
+  Moments& operator+=(const Moments& o) {
+    if (o.count == 0) return *this;
+    if (count == 0) return *this = o;
+    const double total = count + o.count;
+    const Vec3 d = o.mean - mean;
+    scatter += o.scatter + (count * o.count / total) * d * d.transpose();
+    mean += (o.count / total) * d;
+    count = total;
+    return *this;
+  }
+  friend Moments operator+(Moments a, const Moments& b) { return a += b; }
+
+  /// Σ (n·p − offset)² over the points.
+  double squared_distances(const Vec3& n, double offset) const {
+    const double d = n.dot(mean) - offset;
+    return n.dot(scatter * n) + count * d * d;
+  }
+};
+
+/// Least-squares plane through a set of points, with its spread.
+struct PlaneFit {
+  Vec3 normal = Vec3::UnitZ();
+  Vec3 u = Vec3::UnitX(), v = Vec3::UnitY();  ///< in-plane principal axes, longest first
+  double rms = 0;                             ///< m, across the plane
+  double spread_u = 0, spread_v = 0;          ///< m, standard deviation along u and v (2D: v is the flat axis, 0)
+};
+
+inline PlaneFit fit_plane(const Moments& m, const Space& space) {
+  PlaneFit fit;
+  const double n = std::max(m.count, 1.0);
+  const auto spread = [&](double eigenvalue) { return std::sqrt(std::max(eigenvalue, 0.0) / n); };
+  if (space.is_2d()) {
+    const Vec3 a = any_orthogonal(*space.flat_axis), b = space.flat_axis->cross(a);
+    Eigen::Matrix2d s;
+    s << a.dot(m.scatter * a), a.dot(m.scatter * b), b.dot(m.scatter * a), b.dot(m.scatter * b);
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+    eigen.computeDirect(s);
+    const auto combine = [&](int i) { return Vec3(eigen.eigenvectors()(0, i) * a + eigen.eigenvectors()(1, i) * b); };
+    fit.normal = combine(0);
+    fit.u = combine(1);
+    fit.v = *space.flat_axis;
+    fit.rms = spread(eigen.eigenvalues()[0]);
+    fit.spread_u = spread(eigen.eigenvalues()[1]);
+    return fit;
+  }
+  Eigen::SelfAdjointEigenSolver<Mat3> eigen(m.scatter);
+  fit.normal = eigen.eigenvectors().col(0);
+  fit.v = eigen.eigenvectors().col(1);
+  fit.u = eigen.eigenvectors().col(2);
+  fit.rms = spread(eigen.eigenvalues()[0]);
+  fit.spread_v = spread(eigen.eigenvalues()[1]);
+  fit.spread_u = spread(eigen.eigenvalues()[2]);
+  return fit;
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/patches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace unseen::planes {
+namespace {
+
+/// Variance (rad²) of the tilt that a least-squares plane has along `axis`. Residuals are summed by blocks of a
+/// grid over the patch, so that noise that is correlated over up to a block's size counts as what it is
+/// (cluster-robust "sandwich" estimate: Liang & Zeger, Biometrika 73, 1986).
+double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis, double spread) {
+  constexpr int kBlocks = 6;
+  const PlaneFit& fit = patch.fit;
+  std::map<std::pair<int, int>, double> score;  // Σ x·r of each block
+  const double su = std::max(fit.spread_u, 1e-300) * 3.5 / kBlocks, sv = std::max(fit.spread_v, 1e-300) * 3.5 / kBlocks;
+  for (const int i : patch.cells) {
+    const Moments& m = grid.moments[i];
+    const Vec3 d = m.mean - patch.moments.mean;
+    const double xr = m.count * axis.dot(d) * fit.normal.dot(d) + axis.dot(m.scatter * fit.normal);
+    score[{static_cast<int>(std::floor(fit.u.dot(d) / su)), static_cast<int>(std::floor(fit.v.dot(d) / sv))}] += xr;
+  }
+  double sum = 0;
+  for (const auto& [block, s] : score) sum += s * s;
+  const double information = patch.moments.count * spread * spread;
+  const double robust = sum / (information * information);
+  const double plain = fit.rms * fit.rms / information;
+  return std::max(robust, plain);
+}
+
+std::vector<std::pair<int, int>> find_neighbours(const VoxelGrid& grid, const Cells& cells,
+                                                 const std::vector<int>& patch_of_cell, double angle) {
+  std::vector<int> parent;
+  const VoxelGrid coarse = grid.coarser(parent);  // voxels of edge ρ
+  struct Member {
+    int patch;
+    Vec3 mean, normal;
+    double tolerance;
+  };
+  std::vector<std::vector<Member>> members(coarse.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const int patch = patch_of_cell[i];
+    if (patch < 0) continue;
+    auto& list = members[parent[i]];
+    if (std::none_of(list.begin(), list.end(), [&](const Member& m) { return m.patch == patch; }))
+      list.push_back({patch, grid.moments[i].mean, cells.normal[i], cells.tolerance[i]});
+  }
+  std::set<std::pair<int, int>> pairs;
+  for (std::size_t c = 0; c < coarse.size(); ++c)
+    for (const Member& a : members[c])
+      coarse.for_neighbours(coarse.keys[c], 2, [&](int o) {
+        for (const Member& b : members[o])
+          if (a.patch < b.patch && (a.mean - b.mean).norm() < 2.0 * a.tolerance &&
+              line_angle(a.normal, b.normal) < angle)
+            pairs.insert({a.patch, b.patch});
+      });
+  return {pairs.begin(), pairs.end()};
+}
+
+}  // namespace
+
+Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells) {
+  Patch patch;
+  patch.cells = std::move(cells);
+  for (const int i : patch.cells) patch.moments += grid.moments[i];
+  patch.fit = fit_plane(patch.moments, space);
+  const PlaneFit& fit = patch.fit;
+  patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
+  patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u);
+  patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v);
+  return patch;
+}
+
+Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle, Context& context) {
+  CellSets regions = grow_regions(grid, cells, space, angle, context);
+  regions = split_regions(grid, space, std::move(regions), context);
+  regions = merge_regions(grid, cells, space, angle, std::move(regions), context);
+  regions = split_regions(grid, space, std::move(regions), context);
+
+  Patches result;
+  for (std::vector<int>& region : regions) result.patches.push_back(make_patch(grid, space, std::move(region)));
+  std::stable_sort(result.patches.begin(), result.patches.end(),
+                   [](const Patch& a, const Patch& b) { return a.area > b.area; });
+  result.patch_of_cell.assign(grid.size(), -1);
+  for (std::size_t j = 0; j < result.patches.size(); ++j)
+    for (const int i : result.patches[j].cells) result.patch_of_cell[i] = static_cast<int>(j);
+  result.neighbours = find_neighbours(grid, cells, result.patch_of_cell, angle);
+  return result;
+}
+
+}  // namespace unseen::planes

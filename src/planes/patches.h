@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "planes/cells.h"
+
+namespace unseen::planes {
+
+/// S_j with its local fit P_j (thesis Section 3.3.1): a connected set of voxels with consistent normals.
+struct Patch {
+  std::vector<int> cells;  ///< voxel indices, ascending
+  Moments moments;
+  PlaneFit fit;
+  double area = 0;        ///< m², of a rectangle with the same spread (2D: length, m)
+  double variance_u = 0;  ///< rad², of the fitted normal's tilt along u, robust to noise that is correlated
+  double variance_v = 0;  ///< the same along v
+};
+
+struct Patches {
+  std::vector<Patch> patches;                  ///< by falling area
+  std::vector<int> patch_of_cell;              ///< −1 = none
+  std::vector<std::pair<int, int>> neighbours;  ///< closest points nearer than 2ρ, local normals within τ; a < b
+};
+
+/// Moments, fit, area and standard errors of a set of voxels.
+Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells);
+
+/// Grows regions over neighbouring voxels, from the flattest upward, while normals stay within `angle` (rad)
+/// of the running fit and residuals within the local scale; then splits what two planes explain clearly
+/// better, and joins what one explains as well.
+Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle, Context& context);
+
+/// Stages of `segment`, on sets of voxels.
+using CellSets = std::vector<std::vector<int>>;
+CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
+                      Context& context);
+CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context);
+CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
+                       CellSets regions, Context& context);
+
+}  // namespace unseen::planes

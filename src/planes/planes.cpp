@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/planes/planes.h"
+
+#include <fmt/format.h>
+
+#include "planes/arrange.h"
+#include "planes/assign.h"
+#include "planes/cells.h"
+#include "planes/describe.h"
+#include "planes/patches.h"
+#include "planes/scale.h"
+#include "planes/select.h"
+#include "unseen/core/error.h"
+
+namespace unseen::planes {
+namespace {
+
+AngleSet angles_of(const Options& options) {
+  std::vector<double> generators;
+  for (const double a : options.angles) generators.push_back(radians(a));
+  return make_angles(generators);
+}
+
+std::optional<Vec3> viewpoint_of(const Options& options, const SourceInfo& info) {
+  if (options.viewpoint.empty()) return info.viewpoint;
+  if (options.viewpoint.size() != 3)
+    throw InputError("", "viewpoint", fmt::format("{} numbers", options.viewpoint.size()), "three: x,y,z");
+  return Vec3(options.viewpoint[0], options.viewpoint[1], options.viewpoint[2]);
+}
+
+/// A line of points lies in infinitely many planes: there is no right answer.
+void check_not_collinear(const VoxelGrid& grid, const Space& space, const Survey& survey, const std::string& name) {
+  Moments all;
+  for (const Moments& m : grid.moments) all += m;
+  const PlaneFit fit = fit_plane(all, space);
+  if (survey.finite - survey.duplicates < (space.is_2d() ? 2u : 3u) || !(fit.spread_u > 0))
+    throw InputError(name, "points", fmt::format("{} distinct", survey.finite - survey.duplicates),
+                     "at least three that are not in a line");
+  if (!space.is_2d() && fit.spread_v < 1e-6 * fit.spread_u)
+    throw InputError(name, "points", "all in one line", "points on surfaces");
+}
+
+void record(const Selection& selection, Summary& summary) {
+  const Energy &before = selection.before, &after = selection.after;
+  summary.energy = {{"before", before.total()},   {"after", after.total()},
+                    {"data", after.data},         {"irregularity", after.irregularity},
+                    {"smoothness", after.smoothness}, {"bound", selection.bound},
+                    {"gap", after.total() - selection.bound}};
+  if (selection.time_limit) summary.status = Status::time_limit;
+}
+
+/// One pass over the source with the plane of each point.
+template <class Body>
+void with_planes_of_points(PointSource& source, const Reach& reach, const VoxelGrid& grid, const Survey& survey,
+                           const Context& context, Body body) {
+  std::vector<int> plane_of_point;
+  for_each_block(source, [&](const PointCloud& block, std::size_t first) {
+    plane_of_point.resize(block.size());
+    assign_points(reach, grid, block, plane_of_point, context);
+    body(block, plane_of_point);
+    context.progress(std::min(1.0, static_cast<double>(first + block.size()) / static_cast<double>(survey.points)));
+  });
+}
+
+void arrange(PointSource& source, const Options& options, Context& context, const AssignmentSink& sink,
+             Arrangement& result) {
+  Summary& summary = result.summary;
+  const SourceInfo info = source.info();
+  const AngleSet angles = angles_of(options);
+  for (const double a : options.angles) result.angles.push_back(radians(a));
+  result.lambda = options.lambda;
+
+  Survey seen;
+  Space space;
+  bool use_normals = false;
+  {
+    Stage stage(context, summary, "survey");
+    seen = survey(source, context);
+    space = space_of(seen, info.two_dimensional);
+    result.scale = choose_scale(seen, space, options);
+    use_normals = normals_usable(seen, space);
+    result.two_dimensional = space.is_2d();
+    if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
+    if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
+    if (!options.scale && !options.relative_scale) context.message(fmt::format("scale {:.4g} m, estimated from spacing and noise", result.scale));
+    summary.counts = {{"points", seen.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0},
+                      {"finite", seen.finite}, {"duplicates", seen.duplicates}};
+  }
+  VoxelGrid grid;
+  {
+    Stage stage(context, summary, "voxels");
+    grid = VoxelGrid(summarise(source, 0.5 * result.scale, seen.duplicate, context));
+    check_not_collinear(grid, space, seen, info.name);
+    if (!use_normals) grid.normals.clear();
+    summary.counts.emplace_back("voxels", grid.size());
+  }
+  Cells cells;
+  {
+    Stage stage(context, summary, "normals");
+    cells = estimate_normals(grid, space, context);
+    if (options.adaptive_scale) adapt_tolerance(cells, grid, viewpoint_of(options, info));
+  }
+  Patches patches;
+  {
+    Stage stage(context, summary, "patches");
+    patches = segment(grid, cells, space, radians(options.patch_angle), context);
+    summary.counts[2].second = patches.patches.size();
+  }
+  Model model;
+  {
+    Stage stage(context, summary, "selection");
+    const Selection selection = select_frames(patches, angles, space, options, context);
+    record(selection, summary);
+    model = build_model(selection, patches, grid, cells, angles, space, context);
+    refit(model);
+  }
+  std::vector<Moments> sums(model.planes.size());
+  {
+    Stage stage(context, summary, "refit");
+    const Reach reach = find_reach(model, grid, cells, use_normals, context);
+    PlaneSums points(model, result.scale);
+    with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, const std::vector<int>& plane) {
+      points.add(block, plane, seen.duplicate);
+    });
+    for (std::size_t p = 0; p < sums.size(); ++p) update_support(model.planes[p], points.moments(p), space);
+    refit(model);
+  }
+  {
+    Stage stage(context, summary, "assignment");
+    const std::vector<int> index_of = describe_planes(model, sums, grid, space, result, context);
+    const Reach reach = find_reach(model, grid, cells, use_normals, context);
+    PlaneSums points(model, result.scale);
+    with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
+      points.add(block, plane, {});
+      for (int& p : plane) p = p < 0 ? -1 : index_of[p];
+      if (sink) sink(block.positions, plane);
+    });
+    for (std::size_t p = 0; p < sums.size(); ++p)
+      if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
+    for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
+    summary.counts[3].second = result.planes.size();
+  }
+  Stage stage(context, summary, "relations");
+  find_relations(angles, result);
+  find_second_order(result);
+  tag_planes(result);
+  summary.counts.emplace_back("frames", result.frames.size());
+  summary.counts.emplace_back("relations", result.relations.size());
+  if (result.planes.empty()) summary.status = Status::infeasible;
+}
+
+}  // namespace
+
+Arrangement find_planes(PointSource& source, const Options& options, Context& context, const AssignmentSink& sink) {
+  Arrangement result;
+  try {
+    arrange(source, options, context, sink, result);
+  } catch (const Cancelled&) {
+    Summary summary = std::move(result.summary);
+    result = Arrangement();
+    result.summary = std::move(summary);
+    result.summary.status = Status::cancelled;
+  }
+  result.summary.warnings = context.take_warnings();
+  return result;
+}
+
+}  // namespace unseen::planes

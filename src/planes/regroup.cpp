@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// Splitting and merging of regions: planes must not cut corners, nor stop at gaps in the data.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "planes/patches.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kSplitGain = 0.6;       // a split must leave less than this share of the squared error
+constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature
+constexpr double kMergeLoss = 1.2;       // a merge may raise either part's rms by this factor
+constexpr std::size_t kSplitCells = 12;  // smaller regions are left alone
+
+double squared_error(const Moments& m, const Space& space) {
+  const PlaneFit fit = fit_plane(m, space);
+  return fit.rms * fit.rms * m.count;
+}
+
+Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells) {
+  Moments sum;
+  for (const int i : cells) sum += grid.moments[i];
+  return sum;
+}
+
+/// The straight cut through a region that leaves the least squared error; empty if none is clearly better.
+std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, const Space& space,
+                                                       const std::vector<int>& region) {
+  const Moments whole = sum_of(grid, region);
+  const PlaneFit fit = fit_plane(whole, space);
+  double best = kSplitGain * squared_error(whole, space);
+  std::pair<std::vector<int>, std::vector<int>> parts;
+  const int directions = space.is_2d() ? 1 : 8;
+  for (int d = 0; d < directions; ++d) {
+    const double angle = kPi * d / directions;
+    const Vec3 axis = std::cos(angle) * fit.u + std::sin(angle) * fit.v;
+    std::vector<std::pair<double, int>> along;
+    for (const int i : region) along.emplace_back(axis.dot(grid.moments[i].mean), i);
+    std::sort(along.begin(), along.end());
+    constexpr int kCuts = 12;
+    std::vector<Moments> slice(kCuts);  // sums between cuts at equal steps of the coordinate
+    const double low = along.front().first, step = (along.back().first - low) / kCuts;
+    if (!(step > 0)) continue;
+    const auto slice_of = [&](double x) { return std::min(kCuts - 1, static_cast<int>((x - low) / step)); };
+    for (const auto& [x, i] : along) slice[slice_of(x)] += grid.moments[i];
+    std::vector<Moments> above(kCuts + 1);
+    for (int c = kCuts - 1; c >= 0; --c) above[c] = above[c + 1] + slice[c];
+    Moments below;
+    for (int c = 1; c < kCuts; ++c) {
+      below += slice[c - 1];
+      const double least = space.is_2d() ? 5 : 10;
+      if (below.count < least || above[c].count < least) continue;
+      const PlaneFit a = fit_plane(below, space), b = fit_plane(above[c], space);
+      const double error = a.rms * a.rms * below.count + b.rms * b.rms * above[c].count;
+      if (error >= best || line_angle(a.normal, b.normal) < kSplitAngle) continue;
+      best = error;
+      parts = {};
+      for (const auto& [x, i] : along) (slice_of(x) < c ? parts.first : parts.second).push_back(i);
+    }
+  }
+  return parts;
+}
+
+struct Region {
+  std::vector<int> cells;
+  Moments moments;
+  PlaneFit fit;
+  std::set<int> adjacent;
+};
+
+/// The larger of the factors by which a common plane raises the rms of either; infinite beyond `angle`.
+double merge_loss(const Region& a, const Region& b, const Space& space, double angle, double floor) {
+  if (line_angle(a.fit.normal, b.fit.normal) > angle) return std::numeric_limits<double>::infinity();
+  const Moments joint = a.moments + b.moments;
+  const PlaneFit fit = fit_plane(joint, space);
+  const double offset = fit.normal.dot(joint.mean);
+  const double base = std::max({a.fit.rms, b.fit.rms, floor});
+  const auto loss = [&](const Region& r) {
+    return std::sqrt(r.moments.squared_distances(fit.normal, offset) / r.moments.count) / base;
+  };
+  return std::max(loss(a), loss(b));
+}
+
+}  // namespace
+
+CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context) {
+  CellSets result;
+  while (!regions.empty()) {
+    context.check();
+    std::vector<int> region = std::move(regions.back());
+    regions.pop_back();
+    if (region.size() >= kSplitCells) {
+      auto [a, b] = best_cut(grid, space, region);
+      if (!a.empty()) {
+        regions.push_back(std::move(a));
+        regions.push_back(std::move(b));
+        continue;
+      }
+    }
+    std::sort(region.begin(), region.end());
+    result.push_back(std::move(region));
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
+                       CellSets sets, Context& context) {
+  std::vector<Region> regions(sets.size());
+  std::vector<int> region_of(grid.size(), -1);
+  for (std::size_t r = 0; r < sets.size(); ++r) {
+    regions[r].moments = sum_of(grid, sets[r]);
+    regions[r].fit = fit_plane(regions[r].moments, space);
+    for (const int i : sets[r]) region_of[i] = static_cast<int>(r);
+    regions[r].cells = std::move(sets[r]);
+  }
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (region_of[i] < 0) continue;
+    grid.for_neighbours(grid.keys[i], 2, [&](int k) {
+      if (region_of[k] < 0 || region_of[k] == region_of[i]) return;
+      if ((grid.moments[k].mean - grid.moments[i].mean).norm() > 1.25 * cells.tolerance[i]) return;
+      regions[region_of[i]].adjacent.insert(region_of[k]);
+      regions[region_of[k]].adjacent.insert(region_of[i]);
+    });
+  }
+  const double floor = 0.02 * 2.0 * grid.edge;
+  using Entry = std::tuple<double, int, int>;  // loss, a, b: the best pair first
+  std::set<Entry> queue;
+  std::map<std::pair<int, int>, double> queued;
+  const auto update = [&](int a, int b) {
+    const auto key = std::minmax(a, b);
+    if (const auto it = queued.find(key); it != queued.end()) {
+      queue.erase({it->second, key.first, key.second});
+      queued.erase(it);
+    }
+    const double loss = merge_loss(regions[key.first], regions[key.second], space, angle, floor);
+    if (loss > kMergeLoss) return;
+    queue.insert({loss, key.first, key.second});
+    queued[key] = loss;
+  };
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    for (const int o : regions[r].adjacent)
+      if (static_cast<int>(r) < o) update(static_cast<int>(r), o);
+  while (!queue.empty()) {
+    context.check();
+    const auto [loss, a, b] = *queue.begin();
+    queue.erase(queue.begin());
+    queued.erase({a, b});
+    Region &ra = regions[a], &rb = regions[b];
+    for (const int o : rb.adjacent) {
+      if (const auto it = queued.find(std::minmax(b, o)); it != queued.end()) {
+        queue.erase({it->second, it->first.first, it->first.second});
+        queued.erase(it);
+      }
+      regions[o].adjacent.erase(b);
+      if (o != a) {
+        regions[o].adjacent.insert(a);
+        ra.adjacent.insert(o);
+      }
+    }
+    ra.cells.insert(ra.cells.end(), rb.cells.begin(), rb.cells.end());
+    ra.moments += rb.moments;
+    ra.fit = fit_plane(ra.moments, space);
+    rb = Region();
+    for (const int o : ra.adjacent) update(a, o);
+  }
+  CellSets result;
+  for (Region& r : regions)
+    if (!r.cells.empty()) {
+      std::sort(r.cells.begin(), r.cells.end());
+      result.push_back(std::move(r.cells));
+    }
+  return result;
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/scale.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nanoflann.hpp>
+
+#include "unseen/core/error.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr std::size_t kProbes = 2000;
+
+struct Sample {
+  const std::vector<Vec3>& points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t a) const { return points[i][a]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Sample>, Sample, 3>;
+
+struct Probe {
+  double sixth = 0;  ///< m, distance to the sixth neighbour
+  PlaneFit fit;      ///< of the nearest 32
+  std::size_t index = 0;
+};
+
+std::vector<Probe> probe(const Survey& survey, const Space& space) {
+  constexpr std::size_t kNeighbours = 32;
+  const Sample sample{survey.sample};
+  const Tree tree(3, sample, {10});
+  std::vector<Probe> probes;
+  const std::size_t count = std::min(kNeighbours, survey.sample.size());
+  std::vector<std::uint32_t> index(count);
+  std::vector<double> squared(count);
+  for (std::size_t i = 0; i < std::min(kProbes, survey.sample.size()); ++i) {
+    const std::size_t found = tree.knnSearch(survey.sample[i].data(), count, index.data(), squared.data());
+    Moments m;
+    for (std::size_t k = 0; k < found; ++k) m += Moments{1.0, survey.sample[index[k]], Mat3::Zero()};
+    probes.push_back({std::sqrt(squared[std::min<std::size_t>(6, found - 1)]), fit_plane(m, space), i});
+  }
+  return probes;
+}
+
+template <class F>
+double median(const std::vector<Probe>& probes, F value) {
+  std::vector<double> values;
+  for (const Probe& p : probes) values.push_back(value(p));
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double choose_scale(const Survey& survey, const Space& space, const Options& options) {
+  const double extent = survey.extent();
+  double scale = 0;
+  if (options.scale) {
+    scale = *options.scale;
+  } else if (options.relative_scale) {
+    scale = *options.relative_scale * extent;
+  } else {
+    const std::vector<Probe> probes = probe(survey, space);
+    // Thinning a surface to a share f of its points spreads them by 1/√f, a line by 1/f.
+    const double thinning = space.is_2d() ? survey.share : std::sqrt(survey.share);
+    const double spacing = thinning * median(probes, [](const Probe& p) { return p.sixth; });
+    const double noise = median(probes, [](const Probe& p) { return p.fit.rms; });
+    scale = std::clamp(std::max(1.25 * spacing, 4.0 * noise), 1e-4 * extent, 0.1 * extent);
+  }
+  if (!(scale <= extent))
+    throw InputError("", "scale", fmt::format("{} m", scale), fmt::format("less than the scene's extent, {:.6g} m", extent));
+  return scale;
+}
+
+bool normals_usable(const Survey& survey, const Space& space) {
+  if (!survey.has_normals() || 2 * survey.without_normal > survey.finite) return false;
+  const std::vector<Probe> probes = probe(survey, space);
+  return median(probes, [&](const Probe& p) {
+           const Vec3 n = survey.sample_normals[p.index].cast<double>();
+           return n.norm() > 0.5 ? line_angle(n, p.fit.normal) : kPi / 2;
+         }) < radians(30.0);
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "planes/moments.h"
+#include "unseen/core/context.h"
+#include "unseen/core/point_cloud.h"
+#include "unseen/planes/options.h"
+
+namespace unseen::planes {
+
+/// What a first look at a source tells.
+struct Survey {
+  std::size_t points = 0, finite = 0, duplicates = 0;
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box of the finite points, m
+  std::size_t without_normal = 0;                ///< finite points whose normal has no usable length
+  std::vector<bool> duplicate;  ///< per point: a twin of an earlier one; only for clouds in memory
+  std::vector<Vec3> sample;     ///< an even share of the finite points, chosen by their coordinates alone
+  std::vector<Vec3f> sample_normals;  ///< of the sample, if the source has normals
+  double share = 1;             ///< how many of the points the sample holds
+
+  bool has_normals() const { return !sample_normals.empty(); }
+  double extent() const { return (high - low).maxCoeff(); }
+};
+
+Survey survey(PointSource& source, Context& context);
+
+/// The space of a survey: 2D if all points share a coordinate.
+Space space_of(const Survey& survey, bool declared_2d);
+
+/// ρ from the options, or, if they give none, the larger of 1.25 times the distance to the sixth neighbour and
+/// four times the noise of small neighbourhoods, each the median over probes.
+/// Throws InputError if the scale exceeds the scene.
+double choose_scale(const Survey& survey, const Space& space, const Options& options);
+
+/// Whether input normals may be relied upon: of usable length, and agreeing with PCA at most probes.
+bool normals_usable(const Survey& survey, const Space& space);
+
+}  // namespace unseen::planes

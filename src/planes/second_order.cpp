@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "planes/describe.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kStepTolerance = 0.25;  // of the scale: offsets this close are equal
+constexpr std::size_t kMostPerDirection = 400;
+
+/// Extent of a plane's outline along two axes of its plane.
+struct Extent {
+  double low_u, high_u, low_v, high_v;
+};
+
+std::vector<Vec3> corners_of(const ArrangedPlane& p) {
+  if (p.segment) return {(*p.segment)[0], (*p.segment)[1]};
+  return p.polygon.empty() ? std::vector<Vec3>{} : p.polygon.front();
+}
+
+Extent extent_of(const ArrangedPlane& p, const Vec3& u, const Vec3& v) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Extent e{kInf, -kInf, kInf, -kInf};
+  for (const Vec3& c : corners_of(p)) {
+    e.low_u = std::min(e.low_u, u.dot(c));
+    e.high_u = std::max(e.high_u, u.dot(c));
+    e.low_v = std::min(e.low_v, v.dot(c));
+    e.high_v = std::max(e.high_v, v.dot(c));
+  }
+  return e;
+}
+
+bool overlap(const Extent& a, const Extent& b, bool two_dimensional) {
+  return a.low_u < b.high_u && b.low_u < a.high_u && (two_dimensional || (a.low_v < b.high_v && b.low_v < a.high_v));
+}
+
+/// Runs of at least three planes, each a step farther than the one before.
+void find_steps(const std::vector<int>& by_offset, double tolerance, Arrangement& result) {
+  const auto offset = [&](std::size_t i) { return result.planes[by_offset[i]].plane.offset; };
+  for (std::size_t first = 0; first + 2 < by_offset.size();) {
+    std::size_t last = first + 1;
+    const double step = offset(last) - offset(first);
+    while (step > 4 * tolerance && last + 1 < by_offset.size() &&
+           std::abs(offset(last + 1) - offset(last) - step) < tolerance)
+      ++last;
+    if (last < first + 2) {
+      ++first;
+      continue;
+    }
+    Spacing s;
+    s.step = (offset(last) - offset(first)) / static_cast<double>(last - first);
+    double sum = 0;
+    for (std::size_t i = first; i <= last; ++i) {
+      s.planes.push_back(by_offset[i]);
+      const double d = offset(i) - offset(first) - s.step * static_cast<double>(i - first);
+      sum += d * d;
+    }
+    s.rms = std::sqrt(sum / static_cast<double>(s.planes.size()));
+    result.spacing.push_back(std::move(s));
+    first = last;
+  }
+}
+
+/// Planes of one direction whose longer sides are equal.
+void find_equal_lengths(const std::vector<int>& planes, const Vec3& u, const Vec3& v, double tolerance,
+                        Arrangement& result) {
+  std::vector<std::pair<double, int>> lengths;
+  for (const int p : planes) {
+    const Extent e = extent_of(result.planes[p], u, v);
+    const double length = std::max(e.high_u - e.low_u, e.high_v - e.low_v);
+    if (length > 4 * tolerance) lengths.emplace_back(length, p);
+  }
+  std::sort(lengths.begin(), lengths.end());
+  for (std::size_t first = 0; first < lengths.size();) {
+    std::size_t end = first + 1;
+    while (end < lengths.size() && lengths[end].first - lengths[first].first < 2 * tolerance) ++end;
+    if (end - first >= 3) {
+      EqualLength e;
+      double sum = 0, squares = 0;
+      for (std::size_t i = first; i < end; ++i) {
+        e.planes.push_back(lengths[i].second);
+        sum += lengths[i].first;
+      }
+      e.length = sum / static_cast<double>(end - first);
+      for (std::size_t i = first; i < end; ++i) squares += std::pow(lengths[i].first - e.length, 2);
+      e.rms = std::sqrt(squares / static_cast<double>(end - first));
+      std::sort(e.planes.begin(), e.planes.end());
+      result.equal_lengths.push_back(std::move(e));
+    }
+    first = end;
+  }
+}
+
+}  // namespace
+
+void find_second_order(Arrangement& result) {
+  std::vector<std::vector<int>> of_direction(result.directions.size());
+  for (std::size_t p = 0; p < result.planes.size(); ++p) of_direction[result.planes[p].direction].push_back(static_cast<int>(p));
+  const double tolerance = kStepTolerance * result.scale;
+  for (std::size_t d = 0; d < of_direction.size(); ++d) {
+    std::vector<int> planes = of_direction[d];
+    if (planes.size() < 2) continue;
+    if (planes.size() > kMostPerDirection) planes.resize(kMostPerDirection);  // the largest
+    std::stable_sort(planes.begin(), planes.end(), [&](int a, int b) {
+      return result.planes[a].plane.offset < result.planes[b].plane.offset;
+    });
+    const Vec3& n = result.directions[d].normal;
+    const Vec3 u = result.two_dimensional ? Vec3(n.cross(Vec3::UnitZ()).norm() > 0.5 ? n.cross(Vec3::UnitZ()).normalized() : any_orthogonal(n))
+                                          : any_orthogonal(n);
+    const Vec3 v = n.cross(u);
+    std::vector<int> levels;  // one plane an offset, the lowest id
+    for (std::size_t i = 0; i < planes.size();) {
+      std::vector<int> group = {planes[i]};
+      const double offset = result.planes[planes[i]].plane.offset;
+      for (++i; i < planes.size() && result.planes[planes[i]].plane.offset - offset < 1e-9; ++i) group.push_back(planes[i]);
+      std::sort(group.begin(), group.end());
+      levels.push_back(group.front());
+      if (group.size() > 1) result.coplanar.push_back(std::move(group));
+    }
+    find_steps(levels, tolerance, result);
+    find_equal_lengths(planes, u, v, tolerance, result);
+    std::vector<Extent> extents;
+    for (const int p : planes) extents.push_back(extent_of(result.planes[p], u, v));
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      for (std::size_t k = i + 1; k < planes.size(); ++k) {
+        const double distance = result.planes[planes[k]].plane.offset - result.planes[planes[i]].plane.offset;
+        if (distance < 1e-9 || !overlap(extents[i], extents[k], result.two_dimensional)) continue;
+        result.distances.push_back({std::min(planes[i], planes[k]), std::max(planes[i], planes[k]), distance});
+        break;  // the next one in line hides the others
+      }
+  }
+}
+
+void tag_planes(Arrangement& result) {
+  if (result.two_dimensional) return;
+  // Up: the direction nearest to +z that carries the most area within 15° of it, else +z itself.
+  Vec3 up = Vec3::UnitZ();
+  std::map<int, double> area;
+  for (const ArrangedPlane& p : result.planes)
+    if (line_angle(p.plane.normal, up) < kPi / 12) area[p.direction] += p.area;
+  double most = 0;
+  for (const auto& [d, a] : area)
+    if (a > most) {
+      most = a;
+      up = result.directions[d].normal;
+    }
+  if (up.z() < 0) up = -up;
+  double low = std::numeric_limits<double>::infinity(), high = -low, largest = 0;
+  const auto height = [&](const ArrangedPlane& p) { return p.plane.offset * (p.plane.normal.dot(up) < 0 ? -1.0 : 1.0); };
+  for (const ArrangedPlane& p : result.planes) {
+    for (const Vec3& c : corners_of(p)) {
+      low = std::min(low, up.dot(c));
+      high = std::max(high, up.dot(c));
+    }
+    if (line_angle(p.plane.normal, up) < 1e-3) largest = std::max(largest, p.area);
+  }
+  const double span = high - low;
+  for (ArrangedPlane& p : result.planes) {
+    const double angle = line_angle(p.plane.normal, up);
+    if (angle < 1e-3) {
+      const bool large = p.area > 0.2 * largest;
+      if (large && height(p) - low < 0.15 * span) p.tag = "floor";
+      else if (large && high - height(p) < 0.15 * span) p.tag = "ceiling";
+      else p.tag = "horizontal";
+    } else if (angle > kPi / 2 - 1e-3) {
+      double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
+      for (const Vec3& c : corners_of(p)) {
+        bottom = std::min(bottom, up.dot(c));
+        top = std::max(top, up.dot(c));
+      }
+      p.tag = top - bottom > 0.5 * span ? "wall" : "vertical";
+    } else {
+      p.tag = "sloped";
+    }
+  }
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/select.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace unseen::planes {
+namespace {
+
+constexpr std::size_t kFirstRound = 120;  // patches that are selected at once, at least
+constexpr double kExplained = 0.05;       // data cost below which a patch asks for no new frame
+constexpr double kSameOrientation = 0.5 * kPi / 180.0;
+
+/// Patches of each round, the largest first: the area threshold is halved until none is left.
+std::vector<std::vector<int>> rounds_by_area(const Patches& patches) {
+  std::vector<std::vector<int>> rounds;
+  std::size_t at = 0;
+  double threshold = patches.patches.empty() ? 0 : patches.patches.front().area;
+  while (at < patches.patches.size()) {
+    std::vector<int> round;
+    const std::size_t least = rounds.empty() ? kFirstRound : 1;
+    while (at < patches.patches.size() && (round.size() < least || patches.patches[at].area > threshold)) {
+      threshold = std::min(threshold, patches.patches[at].area);
+      round.push_back(static_cast<int>(at++));
+    }
+    threshold *= 0.5;
+    rounds.push_back(std::move(round));
+  }
+  return rounds;
+}
+
+/// Energy of giving every patch a frame of its own.
+Energy keep_local_fits(const Patches& patches, const AngleSet& angles, const Space& space,
+                       const std::vector<Vec3>& locals, double lambda) {
+  std::vector<OrientationFrame> frames;
+  for (const Patch& p : patches.patches) frames.push_back(open_frame(p.fit.normal, space));
+  Energy e;
+  for (std::size_t a = 0; a < frames.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      e.irregularity += (1.0 - lambda) * irregularity(frames[a], frames[b], locals, angles);
+  for (const auto& [a, b] : patches.neighbours)
+    if (line_angle(patches.patches[a].fit.normal, patches.patches[b].fit.normal) > kSameOrientation)
+      e.smoothness += (1.0 - lambda) / 10.0;
+  return e;
+}
+
+/// The frames that labels use, refitted to the patches that have them.
+std::vector<OrientationFrame> refit_used(const Patches& patches, const std::vector<int>& members,
+                                         const std::vector<OrientationFrame>& frames, std::size_t fixed,
+                                         const Labels& labels, const std::vector<Vec3>& locals,
+                                         double patch_angle) {
+  std::vector<OrientationFrame> refitted;
+  for (std::size_t k = fixed; k < frames.size(); ++k) {
+    std::vector<std::pair<const Patch*, int>> of_frame;
+    for (std::size_t i = 0; i < members.size(); ++i)
+      if (labels[i] == static_cast<int>(k)) {
+        const Patch& patch = patches.patches[members[i]];
+        of_frame.emplace_back(&patch, best_candidate(patch, frames[k], locals, patch_angle).local);
+      }
+    if (!of_frame.empty()) refitted.push_back(refit_frame(frames[k], locals, of_frame));
+  }
+  return refitted;
+}
+
+}  // namespace
+
+OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
+                             const std::vector<std::pair<const Patch*, int>>& members) {
+  OrientationFrame result = frame;
+  const double floor = kSystematicTilt * kSystematicTilt;
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    Mat3 information = Mat3::Zero();
+    Vec3 gradient = Vec3::Zero();
+    for (const auto& [patch, local] : members) {
+      const PlaneFit& fit = patch->fit;
+      const Vec3 n = result.direction(locals[local]);
+      // Turning by w moves n by w × n, so its component along u by w·(n × u).
+      const auto add = [&](const Vec3& axis, double variance) {
+        const Vec3 j = n.cross(axis);
+        information += j * j.transpose() / (variance + floor);
+        gradient -= j * n.dot(axis) / (variance + floor);
+      };
+      add(fit.u, patch->variance_u);
+      add(fit.v, patch->variance_v);
+    }
+    Eigen::SelfAdjointEigenSolver<Mat3> eigen(information);
+    Vec3 w = Vec3::Zero();
+    for (int i = 0; i < 3; ++i)
+      if (eigen.eigenvalues()[i] > 1e-9 * eigen.eigenvalues()[2])
+        w += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).dot(gradient) / eigen.eigenvalues()[i];
+    if (w.norm() > 0) result.axes = Eigen::AngleAxisd(w.norm(), w.normalized()) * result.axes;
+    if (w.norm() < 1e-12) break;
+  }
+  result.axes.col(0).normalize();
+  result.axes.col(2) = result.axes.col(0).cross(result.axes.col(1)).normalized();
+  result.axes.col(1) = result.axes.col(2).cross(result.axes.col(0));
+  return result;
+}
+
+SelectionProblem make_problem(const Patches& patches, const std::vector<int>& members,
+                              const std::vector<OrientationFrame>& frames, std::size_t fixed,
+                              const AngleSet& angles, const std::vector<Vec3>& locals, double lambda,
+                              double patch_angle) {
+  SelectionProblem p;
+  p.lambda = lambda;
+  const int rows = static_cast<int>(members.size()), cols = static_cast<int>(frames.size());
+  p.data.resize(rows, cols);
+  p.orientation.setConstant(rows, cols, -1);
+  p.irregularity.setZero(cols, cols);
+  p.fixed.assign(cols, 0);
+  std::fill(p.fixed.begin(), p.fixed.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
+
+  std::vector<Vec3> orientations;
+  std::vector<std::vector<int>> orientation_of(cols);  // per frame and local direction
+  for (int k = 0; k < cols; ++k)
+    for (std::size_t l = 0; l < (frames[k].closed ? locals.size() : 1); ++l) {
+      const Vec3 n = frames[k].direction(locals[l]);
+      const auto it = std::find_if(orientations.begin(), orientations.end(), [&](const Vec3& o) {
+        return std::abs(o.dot(n)) > std::cos(kSameOrientation);
+      });
+      orientation_of[k].push_back(static_cast<int>(it - orientations.begin()));
+      if (it == orientations.end()) orientations.push_back(n);
+    }
+  for (int j = 0; j < rows; ++j)
+    for (int k = 0; k < cols; ++k) {
+      const Candidate c = best_candidate(patches.patches[members[j]], frames[k], locals, patch_angle);
+      p.data(j, k) = c.cost;
+      if (c.local >= 0) p.orientation(j, k) = orientation_of[k][c.local];
+    }
+  for (int a = 0; a < cols; ++a)
+    for (int b = 0; b < a; ++b)
+      p.irregularity(a, b) = p.irregularity(b, a) = irregularity(frames[a], frames[b], locals, angles);
+  std::vector<int> row_of(patches.patches.size(), -1);
+  for (int j = 0; j < rows; ++j) row_of[members[j]] = j;
+  for (const auto& [a, b] : patches.neighbours)
+    if (row_of[a] >= 0 && row_of[b] >= 0) p.neighbours.emplace_back(row_of[a], row_of[b]);
+  return p;
+}
+
+Selection select_frames(const Patches& patches, const AngleSet& angles, const Space& space,
+                        const Options& options, Context& context) {
+  const std::vector<Vec3> locals = local_directions(angles, space);
+  const double lambda = options.lambda, patch_angle = radians(options.patch_angle);
+  Selection s;
+  s.frame_of_patch.assign(patches.patches.size(), -1);
+  s.local_of_patch.assign(patches.patches.size(), -1);
+  s.before = keep_local_fits(patches, angles, space, locals, lambda);
+
+  std::size_t done = 0;
+  for (const std::vector<int>& round : rounds_by_area(patches)) {
+    context.progress(static_cast<double>(done) / patches.patches.size());
+    done += round.size();
+    const std::size_t fixed = s.frames.size();
+    std::vector<int> unexplained;
+    for (const int j : round) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const OrientationFrame& f : s.frames)
+        least = std::min(least, best_candidate(patches.patches[j], f, locals, patch_angle).cost);
+      if (!(least < kExplained) || lambda == 1.0) unexplained.push_back(j);
+    }
+    std::vector<OrientationFrame> frames = s.frames;
+    for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, lambda, patch_angle))
+      frames.push_back(std::move(f));
+    const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
+      return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle);
+    };
+    SelectionProblem problem = problem_of(frames);
+    Labels labels = solve_local(problem, context);
+    // Fit the chosen frames to their patches and choose again, while that lowers the energy (as PEARL does).
+    for (int i = 0; i < 3; ++i) {
+      std::vector<OrientationFrame> pool = frames;
+      for (OrientationFrame& f : refit_used(patches, round, frames, fixed, labels, locals, patch_angle))
+        pool.push_back(std::move(f));
+      SelectionProblem next = problem_of(pool);
+      Labels again = solve_local(next, context);
+      if (energy_of(next, again).total() > energy_of(problem, labels).total() - 1e-9) break;
+      frames = std::move(pool);
+      problem = std::move(next);
+      labels = std::move(again);
+    }
+    double bound = 0;
+    if (options.solver == "exact") {
+      ExactSolution exact = solve_exact(problem, labels, options.time_limit, context);
+      labels = std::move(exact.labels);
+      bound = exact.bound;
+      s.time_limit = s.time_limit || !exact.proven;
+    } else {
+      bound = lower_bound(problem, energy_of(problem, labels).total(), context);
+    }
+    // What fixed frames cost among themselves was counted in the rounds that chose them.
+    const Energy e = energy_of(problem, labels);
+    double among_fixed = 0;
+    for (std::size_t a = 0; a < fixed; ++a)
+      for (std::size_t b = 0; b < a; ++b) among_fixed += (1.0 - lambda) * problem.irregularity(a, b);
+    s.after.data += e.data;
+    s.after.irregularity += e.irregularity - among_fixed;
+    s.after.smoothness += e.smoothness;
+    s.bound += bound - among_fixed;
+
+    std::vector<int> kept(frames.size(), -1);
+    for (std::size_t k = 0; k < fixed; ++k) kept[k] = static_cast<int>(k);
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      int& to = kept[labels[i]];
+      if (to < 0) {
+        to = static_cast<int>(s.frames.size());
+        s.frames.push_back(frames[labels[i]]);
+      }
+      s.frame_of_patch[round[i]] = to;
+      s.local_of_patch[round[i]] = best_candidate(patches.patches[round[i]], s.frames[to], locals, patch_angle).local;
+    }
+  }
+  return s;
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "planes/frames.h"
+#include "planes/selection.h"
+#include "unseen/planes/options.h"
+
+namespace unseen::planes {
+
+/// Which frame and which of its directions each patch has.
+struct Selection {
+  std::vector<OrientationFrame> frames;
+  std::vector<int> frame_of_patch, local_of_patch;
+  Energy before, after;  ///< of every local fit kept, and of this selection
+  double bound = 0;      ///< no selection from the same candidates, round by round, has less energy
+  bool time_limit = false;
+};
+
+/// Frames that a set of patches may have, beside those given: single directions from clusters of patch
+/// normals, and the closed frames that pairs of them, or of them and the axes of given frames, make.
+/// `members` are the patches that may generate, the largest first.
+std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::vector<int>& members,
+                                             const std::vector<OrientationFrame>& given, const AngleSet& angles,
+                                             const Space& space, double lambda, double patch_angle);
+
+/// Least-squares rotation of a frame to patches that have given directions of it, each weighted by its own
+/// fit's variance. An open frame, or one with members of a single direction, turns as little as it must.
+OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
+                             const std::vector<std::pair<const Patch*, int>>& members);
+
+/// The numbers of a selection problem for some patches and frames.
+SelectionProblem make_problem(const Patches& patches, const std::vector<int>& members,
+                              const std::vector<OrientationFrame>& frames, std::size_t fixed,
+                              const AngleSet& angles, const std::vector<Vec3>& locals, double lambda,
+                              double patch_angle);
+
+/// Coarse to fine (thesis Algorithm 1): the largest patches choose their frames first; these stay, serve
+/// smaller patches, and are not changed by them.
+Selection select_frames(const Patches& patches, const AngleSet& angles, const Space& space,
+                        const Options& options, Context& context);
+
+}  // namespace unseen::planes

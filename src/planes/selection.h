@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "unseen/core/context.h"
+
+namespace unseen::planes {
+
+/// Choice of frames and of one candidate a patch, as numbers: minimise (thesis Eq. 3.4, with Eq. 3.3 linear)
+///   λ Σ_j data(j, k_j) + (1−λ) Σ_{i<k chosen} irregularity(i,k) + C · #{neighbours with other orientations}
+/// where a frame is chosen if a patch has it, or if it is fixed (chosen in a coarser round).
+struct SelectionProblem {
+  double lambda = 0.5;
+  Eigen::MatrixXd data;            ///< patches × frames; infinite where a frame has no candidate
+  Eigen::MatrixXi orientation;     ///< patches × frames: equal numbers are equal orientations; −1 = no candidate
+  Eigen::MatrixXd irregularity;    ///< frames × frames, symmetric, zero diagonal
+  std::vector<char> fixed;         ///< per frame
+  std::vector<std::pair<int, int>> neighbours;
+
+  int patches() const { return static_cast<int>(data.rows()); }
+  int frames() const { return static_cast<int>(data.cols()); }
+  double smoothness() const { return (1.0 - lambda) / 10.0; }  ///< C
+};
+
+struct Energy {
+  double data = 0, irregularity = 0, smoothness = 0;  ///< weighted, as they are summed
+  double total() const { return data + irregularity + smoothness; }
+};
+
+using Labels = std::vector<int>;  ///< frame of each patch
+
+Energy energy_of(const SelectionProblem& problem, const Labels& labels);
+
+/// Greedy opening of frames, then adding, dropping and swapping frames with labels relaxed by moves of single
+/// patches and of connected parts; every subset of the best few frames while the problem is small.
+Labels solve_local(const SelectionProblem& problem, const Context& context);
+
+/// A lower bound on the energy of any selection: branch and bound on frames, without the smoothness term,
+/// cut off after a fixed number of nodes.
+double lower_bound(const SelectionProblem& problem, double upper, const Context& context);
+
+struct ExactSolution {
+  Labels labels;
+  double bound = 0;      ///< proven lower bound on the energy
+  bool proven = false;   ///< optimal within the solver's tolerance
+};
+
+/// The same as a mixed-integer linear program, by CBC. `start` is a feasible selection.
+ExactSolution solve_exact(const SelectionProblem& problem, const Labels& start, double seconds,
+                          const Context& context);
+
+}  // namespace unseen::planes

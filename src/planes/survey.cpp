@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <unordered_map>
+
+#include "planes/scale.h"
+#include "unseen/core/error.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr std::size_t kSample = 300'000;
+
+std::uint64_t mix(std::uint64_t h) {
+  h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ull;
+  h = (h ^ (h >> 27)) * 0x94D049BB133111EBull;
+  return h ^ (h >> 31);
+}
+
+/// Depends on the coordinates alone (0.0 and −0.0 are the same).
+std::uint64_t hash(const Vec3& p) {
+  std::uint64_t h = 0x9E3779B97F4A7C15ull;
+  for (int a = 0; a < 3; ++a) h = mix(h + std::bit_cast<std::uint64_t>(p[a] + 0.0));
+  return h;
+}
+
+/// Marks all but one of the points that share their coordinates. Which one stays does not depend on the
+/// order of the points: the one with the smallest normal.
+void find_duplicates(const PointCloud& cloud, Survey& survey) {
+  std::vector<std::uint32_t> order;
+  std::vector<std::uint64_t> hashes(cloud.size());
+  for (std::uint32_t i = 0; i < cloud.size(); ++i)
+    if (cloud.positions[i].allFinite()) {
+      hashes[i] = hash(cloud.positions[i]);
+      order.push_back(i);
+    }
+  const auto less = [](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (hashes[a] != hashes[b]) return hashes[a] < hashes[b];
+    if (cloud.positions[a] != cloud.positions[b]) return less(cloud.positions[a], cloud.positions[b]);
+    if (!cloud.normals.empty() && cloud.normals[a] != cloud.normals[b]) return less(cloud.normals[a], cloud.normals[b]);
+    return a < b;
+  });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (hashes[order[i]] == hashes[order[i - 1]] && cloud.positions[order[i]] == cloud.positions[order[i - 1]]) {
+      if (survey.duplicate.empty()) survey.duplicate.assign(cloud.size(), false);
+      survey.duplicate[order[i]] = true;
+      ++survey.duplicates;
+    }
+}
+
+struct Sampled {
+  std::uint64_t hash;
+  Vec3 position;
+  Vec3f normal;
+};
+
+}  // namespace
+
+Survey survey(PointSource& source, Context& context) {
+  Survey s;
+  s.low.setConstant(std::numeric_limits<double>::infinity());
+  s.high = -s.low;
+  const bool normals = source.info().has_normals;
+  if (const PointCloud* cloud = source.cloud()) find_duplicates(*cloud, s);
+  std::vector<Sampled> sample;
+  int bits = 0;  // points whose hash starts with this many zeros are in the sample
+  const double total = static_cast<double>(source.info().point_count.value_or(0));
+  for_each_block(source, [&](const PointCloud& block, std::size_t first) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if ((i & 0xffff) == 0) context.progress(total > 0 ? std::min(1.0, (first + i) / total) : 0.0);
+      const Vec3& p = block.positions[i];
+      if (!p.allFinite()) continue;
+      ++s.finite;
+      s.low = s.low.cwiseMin(p);
+      s.high = s.high.cwiseMax(p);
+      const bool normal = normals && i < block.normals.size();
+      if (normal) {
+        const float length = block.normals[i].squaredNorm();
+        if (!(length > 0.25f && length < 4.0f)) ++s.without_normal;
+      }
+      if (!s.duplicate.empty() && s.duplicate[first + i]) continue;
+      const std::uint64_t h = hash(p);
+      if (bits > 0 && h >> (64 - bits) != 0) continue;
+      sample.push_back({h, p, normal ? block.normals[i] : Vec3f(Vec3f::Zero())});
+      if (sample.size() > kSample) {
+        ++bits;
+        std::erase_if(sample, [&](const Sampled& x) { return x.hash >> (64 - bits) != 0; });
+      }
+    }
+    s.points += block.size();
+  });
+  std::sort(sample.begin(), sample.end(), [](const Sampled& a, const Sampled& b) {
+    return a.hash != b.hash ? a.hash < b.hash
+                            : std::lexicographical_compare(a.position.data(), a.position.data() + 3,
+                                                           b.position.data(), b.position.data() + 3);
+  });
+  for (const Sampled& x : sample) {
+    s.sample.push_back(x.position);
+    if (normals) s.sample_normals.push_back(x.normal);
+  }
+  s.share = s.finite > 0 ? static_cast<double>(sample.size()) / static_cast<double>(s.finite - s.duplicates) : 1.0;
+  if (s.finite == 0)
+    throw InputError(source.info().name, "points",
+                     s.points == 0 ? "none" : std::to_string(s.points) + ", none of them finite",
+                     "at least three points that are not in a line");
+  return s;
+}
+
+Space space_of(const Survey& survey, bool declared_2d) {
+  Space space;
+  const Vec3 extent = survey.high - survey.low;
+  if (declared_2d) space.flat_axis = Vec3::UnitZ();
+  for (int a = 2; a >= 0 && !space.is_2d(); --a)
+    if (extent[a] == 0.0 && extent[(a + 1) % 3] > 0.0 && extent[(a + 2) % 3] > 0.0) space.flat_axis = Vec3::Unit(a);
+  return space;
+}
+
+}  // namespace unseen::planes

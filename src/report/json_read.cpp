@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "report/json_read.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "unseen/core/error.h"
+
+namespace unseen::report {
+
+nlohmann::json parse_json(const std::string& text, const std::string& source) {
+  constexpr int kDeepest = 64;
+  using Event = nlohmann::json::parse_event_t;
+  const auto limit_depth = [&](int depth, Event event, nlohmann::json&) {
+    if (depth > kDeepest && (event == Event::object_start || event == Event::array_start))
+      throw InputError(source, "", fmt::format("more than {} nested levels", kDeepest), "a result of unseen");
+    return true;
+  };
+  try {
+    return nlohmann::json::parse(text, limit_depth);
+  } catch (const nlohmann::json::exception& e) {
+    throw InputError(source, "", "broken JSON (" + std::string(e.what()) + ")", "a result of unseen");
+  }
+}
+
+JsonField JsonField::operator[](const std::string& key) const {
+  if (!value_->is_object()) fail("an object");
+  const auto at = value_->find(key);
+  const std::string path = path_.empty() ? key : path_ + "." + key;
+  if (at == value_->end()) throw InputError(source_, path, "nothing", "this field");
+  return {*at, source_, path};
+}
+
+bool JsonField::has(const std::string& key) const {
+  return value_->is_object() && value_->contains(key);
+}
+
+std::vector<JsonField> JsonField::list() const {
+  if (!value_->is_array()) fail("an array");
+  std::vector<JsonField> fields;
+  for (std::size_t i = 0; i < value_->size(); ++i)
+    fields.emplace_back((*value_)[i], source_, fmt::format("{}[{}]", path_, i));
+  return fields;
+}
+
+std::vector<std::pair<std::string, JsonField>> JsonField::members() const {
+  if (!value_->is_object()) fail("an object");
+  std::vector<std::pair<std::string, JsonField>> fields;
+  for (const auto& [key, value] : value_->items())
+    fields.emplace_back(key, JsonField(value, source_, path_ + "." + key));
+  return fields;
+}
+
+std::string JsonField::text() const {
+  if (!value_->is_string()) fail("text");
+  return value_->get<std::string>();
+}
+
+double JsonField::number(double min, double max) const {
+  if (!value_->is_number()) fail("a number");
+  const double v = value_->get<double>();
+  if (!std::isfinite(v) || v < min || v > max) fail(fmt::format("a number in [{}, {}]", min, max));
+  return v;
+}
+
+std::size_t JsonField::count() const {
+  if (!value_->is_number_unsigned()) fail("a whole number, at least 0");
+  return value_->get<std::size_t>();
+}
+
+int JsonField::index(std::size_t size) const {
+  if (!value_->is_number_unsigned() || value_->get<std::size_t>() >= size)
+    fail(fmt::format("an index below {}", size));
+  return static_cast<int>(value_->get<std::size_t>());
+}
+
+std::vector<int> JsonField::indices(std::size_t size) const {
+  std::vector<int> values;
+  for (const JsonField& field : list()) values.push_back(field.index(size));
+  return values;
+}
+
+Vec3 JsonField::vector() const {
+  const auto fields = list();
+  if (fields.size() != 3) fail("three numbers");
+  return {fields[0].number(), fields[1].number(), fields[2].number()};
+}
+
+Vec3 JsonField::unit_vector() const {
+  const Vec3 v = vector();
+  if (!(std::abs(v.norm() - 1.0) < 1e-6)) fail("a vector of length 1");
+  return v;
+}
+
+void JsonField::fail(const std::string& expected) const {
+  constexpr std::size_t kLongest = 60;
+  std::string found;
+  if (value_->is_array()) {
+    found = fmt::format("an array of {}", value_->size());
+  } else if (value_->is_object()) {
+    found = "an object";
+  } else {
+    found = value_->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    if (found.size() > kLongest) found = found.substr(0, kLongest) + "…";
+  }
+  throw InputError(source_, path_, found, expected);
+}
+
+}  // namespace unseen::report

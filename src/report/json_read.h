@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "unseen/core/geometry.h"
+
+namespace unseen::report {
+
+/// Parses JSON of at most 64 levels. Throws InputError.
+nlohmann::json parse_json(const std::string& text, const std::string& source);
+
+/// A value within a JSON file that knows where it stands, "planes[3].normal", so that every failed check
+/// throws an InputError which names file and field. Refers to the parsed file, which must outlive it.
+class JsonField {
+ public:
+  JsonField(const nlohmann::json& value, std::string source, std::string path = "")
+      : value_(&value), source_(std::move(source)), path_(std::move(path)) {}
+
+  /// A member that must exist.
+  JsonField operator[](const std::string& key) const;
+  bool has(const std::string& key) const;
+  bool is_null() const { return value_->is_null(); }
+  /// The entries of an array.
+  std::vector<JsonField> list() const;
+  /// The members of an object, in the file's order of names.
+  std::vector<std::pair<std::string, JsonField>> members() const;
+
+  std::string text() const;
+  double number(double min = -std::numeric_limits<double>::infinity(),
+                double max = std::numeric_limits<double>::infinity()) const;
+  std::size_t count() const;
+  /// Index of something of which there are `size`.
+  int index(std::size_t size) const;
+  std::vector<int> indices(std::size_t size) const;
+  Vec3 vector() const;
+  /// A vector of length 1 within 1e-6.
+  Vec3 unit_vector() const;
+
+  [[noreturn]] void fail(const std::string& expected) const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string source_, path_;
+};
+
+}  // namespace unseen::report

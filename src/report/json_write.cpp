@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "report/json_write.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "unseen/core/version.h"
+
+namespace unseen::report {
+namespace {
+
+template <class... F>
+struct Overload : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overload(F...) -> Overload<F...>;
+
+Json value_of(const Option& option) {
+  return std::visit(
+      Overload{[](const bool* b) { return Json(*b); }, [](const int* i) { return Json(*i); },
+               [](const double* d) { return number(*d); }, [](const std::string* s) { return Json(*s); },
+               [](const std::optional<double>* d) { return *d ? number(**d) : Json(nullptr); },
+               [](const std::vector<double>* v) {
+                 Json list = Json::array();
+                 for (const double d : *v) list.push_back(number(d));
+                 return list;
+               }},
+      option.target);
+}
+
+}  // namespace
+
+Json number(double value) {
+  if (!std::isfinite(value)) throw std::logic_error("a result holds a number that is not finite");
+  return value == 0.0 ? 0.0 : value;  // no "-0.0"
+}
+
+Json degrees_of(double radians) {
+  const double exact = degrees(radians), rounded = std::round(exact * 1e6) / 1e6;
+  return number(std::abs(exact - rounded) < 1e-12 ? rounded : exact);
+}
+
+Json vector_of(const Vec3& v) {
+  return Json::array({number(v.x()), number(v.y()), number(v.z())});
+}
+
+Json summary_of(const Summary& summary) {
+  Json seconds = Json::object(), energy = Json::object(), counts = Json::object();
+  for (const auto& [name, value] : summary.seconds) seconds[name] = number(value);
+  for (const auto& [name, value] : summary.energy) energy[name] = number(value);
+  for (const auto& [name, value] : summary.counts) counts[name] = value;
+  return {{"status", to_string(summary.status)},
+          {"seconds", seconds},
+          {"energy", energy},
+          {"counts", counts},
+          {"warnings", summary.warnings}};
+}
+
+Json result_header(const std::string& capability, const InputRecord& input, const OptionTable& options,
+                   const Summary& summary) {
+  Json values = Json::object();
+  for (const Option& option : options.all()) values[option.name] = value_of(option);
+  return {{"unseen", kVersion},
+          {"schema", 1},
+          {"capability", capability},
+          {"input",
+           {{"path", input.path}, {"sha256", input.sha256.empty() ? Json(nullptr) : Json(input.sha256)}}},
+          {"options", values},
+          {"summary", summary_of(summary)}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace unseen::report

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "unseen/core/geometry.h"
+#include "unseen/core/options.h"
+#include "unseen/core/summary.h"
+#include "unseen/report/planes_result.h"
+
+namespace unseen::report {
+
+using Json = nlohmann::ordered_json;
+
+/// A finite number; throws std::logic_error otherwise, for JSON has no NaN.
+Json number(double value);
+
+/// Radians as degrees; what lies within rounding of a short decimal becomes that decimal.
+Json degrees_of(double radians);
+
+Json vector_of(const Vec3& v);
+
+/// What all capabilities begin with: unseen, schema, capability, input, options, summary.
+Json result_header(const std::string& capability, const InputRecord& input, const OptionTable& options,
+                   const Summary& summary);
+
+/// The summary as it stands in result.json.
+Json summary_of(const Summary& summary);
+
+/// As text with two blanks a level; what is not UTF-8 becomes the replacement character.
+std::string text_of(const Json& json);
+
+}  // namespace unseen::report
