@@ -22,12 +22,13 @@ std::string help_of(const Option& option) {
 
 }  // namespace
 
-void bind(CLI::App& app, const OptionTable& table, GivenOptions& given) {
+void add_flags(CLI::App& app, const OptionTable& table, GivenOptions& given) {
   for (const Option& option : table.all()) {
     const std::string name = option.name;
     if (std::holds_alternative<bool*>(option.target)) {
       app.add_flag_function(
-          option.flag(), [name, &given](std::int64_t n) { given.emplace_back(name, n > 0 ? "true" : "false"); },
+          option.flag(),
+          [name, &given](std::int64_t n) { given.emplace_back(name, n > 0 ? "true" : "false"); },
           help_of(option));
     } else {
       const bool is_list = std::holds_alternative<std::vector<double>*>(option.target);
@@ -43,12 +44,15 @@ void append(OptionTable& table, const OptionTable& more) {
   for (const Option& option : more.all()) table.add(option);
 }
 
-void resolve(OptionTable& table, const std::string& config_file, const GivenOptions& given) {
-  if (!config_file.empty()) io::apply_config(table, config_file);
+void resolve(OptionTable& table, const std::string& config_file, const std::string& section,
+             const GivenOptions& given) {
+  if (!config_file.empty())
+    io::apply_config(table, config_file, section,
+                     {"planes", "cuboids", "collision", "interactions", "convert", "evaluate", "synth"});
   for (const auto& [name, text] : given) table.set_text(name, text, kCommandLine);
 }
 
-void bind(CLI::App& app, CommonFlags& flags) {
+void add_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--config", flags.config_file, "take options from this TOML file; flags given here win")
       ->type_name("FILE.toml");
   app.add_flag("--dump-config", flags.dump_config, "print all options as such a file, and end");

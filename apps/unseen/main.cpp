@@ -53,8 +53,9 @@ int main(int argc, char** argv) {
   CLI::App app("Finds out what a scan or a video does not show.", "unseen");
   app.set_version_flag("--version", fmt::format("unseen {}", unseen::kVersion));
   app.require_subcommand(1);
-  app.footer("Each subcommand has its own --help with an example.\n"
-             "Exit codes: 0 solved, 2 usage, 3 bad input, 4 no solution, 130 interrupted, 1 internal fault.");
+  app.footer(
+      "Each subcommand has its own --help with an example.\n"
+      "Exit codes: 0 solved, 2 usage, 3 bad input, 4 no solution, 130 interrupted, 1 internal fault.");
   CLI::App* synth = app.add_subcommand("synth", "Make a scene with exact truth");
   CLI::App* evaluate = app.add_subcommand("evaluate", "Measure a result against truth");
   synth->require_subcommand(1)->footer("Example:\n  unseen synth planes -o room --seed 7");

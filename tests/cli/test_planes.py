@@ -123,6 +123,7 @@ class Planes(CliTest):
         result = json.loads((self.folder / "out/result.json").read_text())
         self.assertEqual(result["summary"]["status"], "infeasible")
         self.assertEqual(result["planes"], [])
+        self.assertEqual(set(contents(self.folder / "out")), {"result.json", "report.html"})
 
 
 if __name__ == "__main__":
