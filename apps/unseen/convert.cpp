@@ -48,8 +48,8 @@ int run(Arguments& args) {
     io::write_points(args.out, *source, context);
   }
   for (const std::string& note : source->info().notes) context.warn(note);
-  progress.clear();
   summary.warnings = context.take_warnings();
+  progress.warn(summary.warnings);
   if (args.common.json) {
     fmt::print("{}", report::summary_json(summary));
   } else if (!args.common.quiet) {

@@ -35,7 +35,7 @@ void add_flags(CLI::App& app, const OptionTable& table, GivenOptions& given) {
       app.add_option_function<std::string>(
              option.flag(), [name, &given](const std::string& text) { given.emplace_back(name, text); },
              help_of(option))
-          ->type_name(option.choices.empty() ? (is_list ? "X,Y,…" : "X") : "NAME");
+          ->type_name(option.choices.empty() ? (is_list ? "X,Y,.." : "X") : "NAME");
     }
   }
 }
@@ -57,8 +57,8 @@ void add_flags(CLI::App& app, CommonFlags& flags) {
       ->type_name("FILE.toml");
   app.add_flag("--dump-config", flags.dump_config, "print all options as such a file, and end");
   app.add_option("--threads", flags.threads, "at most this many threads; 0 = as many as the machine has")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
   app.add_flag("--quiet", flags.quiet, "print nothing but errors");
   app.add_flag("--json", flags.json, "print the summary as JSON");
   app.set_version_flag("--version", fmt::format("unseen {}", kVersion));

@@ -60,12 +60,14 @@ std::string plural(std::size_t count, const std::string& one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-void print_summary(const planes::Arrangement& a, const Arguments& args) {
+void print_summary(const planes::Arrangement& a, const Arguments& args, bool drawing_expected) {
   const std::size_t points = count_of(a.summary, "points"), assigned = count_of(a.summary, "assigned");
   const bool estimated = !args.options.scale && !args.options.relative_scale;
   const std::string thing = a.two_dimensional ? "line" : "plane";
   const double share =
       points == 0 ? 0.0 : 100.0 * static_cast<double>(assigned) / static_cast<double>(points);
+  if (a.two_dimensional && !drawing_expected)
+    fmt::print("all points share one coordinate: taken as a drawing\n");
   fmt::print("{}, {} of them on a {} ({:.1f} %)\n", plural(points, "point"), assigned, thing, share);
   fmt::print("{} in {}, {}\n", plural(a.planes.size(), thing), plural(a.frames.size(), "orientation frame"),
              plural(a.directions.size(), "direction"));
@@ -78,12 +80,10 @@ void print_summary(const planes::Arrangement& a, const Arguments& args) {
 }
 
 /// Adds what the reader had to guess or leave out, unless the method has said so already.
-void add_notes(const SourceInfo& info, Context& context, Summary& summary) {
-  for (const std::string& note : info.notes) {
-    if (std::find(summary.warnings.begin(), summary.warnings.end(), note) != summary.warnings.end()) continue;
-    context.message("warning: " + note);
-    summary.warnings.push_back(note);
-  }
+void add_notes(const SourceInfo& info, Summary& summary) {
+  for (const std::string& note : info.notes)
+    if (std::find(summary.warnings.begin(), summary.warnings.end(), note) == summary.warnings.end())
+      summary.warnings.push_back(note);
 }
 
 void write_files(const planes::Arrangement& a, const Arguments& args, const OptionTable& table,
@@ -138,16 +138,16 @@ int run(Arguments& args) {
                             if (streamed.points) streamed.points->add(positions, plane_of_point);
                           });
   if (a.summary.status == Status::cancelled) throw Cancelled();
-  add_notes(source->info(), context, a.summary);
+  add_notes(source->info(), a.summary);
   write_files(a, args, table, streamed, out, context);
   context.check();
-  for (const std::string& line : out.commit()) context.message(line);
-  progress.clear();
+  progress.warn(a.summary.warnings);
+  progress.warn(out.commit());
 
   if (args.common.json) {
     fmt::print("{}", report::summary_json(a.summary));
   } else if (!args.common.quiet) {
-    print_summary(a, args);
+    print_summary(a, args, source->info().two_dimensional);
   }
   return a.summary.status == Status::infeasible ? kNoSolution : kSolved;
 }

@@ -28,7 +28,7 @@ Json score_of(const planes::AssignmentScore& s) {
 }
 
 std::string line(const std::string& name, const std::string& first, const std::string& second = "") {
-  return fmt::format("{:<36}{:>14}{:>14}", name, first, second).substr(0, second.empty() ? 50 : 64) + "\n";
+  return fmt::format("{:<36}{:>14}", name, first) + (second.empty() ? "" : fmt::format("{:>16}", second)) + "\n";
 }
 
 std::string line(const std::string& name, std::size_t count) {
