@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -32,8 +33,8 @@ fs::path temporary_beside(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   fs::path path;
   do {
-    path = target.parent_path() / ("." + target.filename().string() + ".unseen-" +
-                                   std::to_string(::getpid()) + "-" + std::to_string(counter++));
+    path = target.parent_path() /
+           fmt::format(".{}.unseen-{}-{}", target.filename().string(), ::getpid(), counter++);
   } while (fs::exists(fs::symlink_status(path)));
   return path;
 }
