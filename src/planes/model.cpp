@@ -26,7 +26,7 @@ std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& 
     int a, b;
   };
   std::vector<Join> joins;
-  for (const auto& [a, b] : patches.neighbours)
+  for (const auto& [a, b] : patches.adjoining)
     if (line_angle(normals[a], normals[b]) < 1e-7) joins.push_back({gap(a, b), a, b});
   std::stable_sort(joins.begin(), joins.end(), [](const Join& a, const Join& b) { return a.gap < b.gap; });
   const auto tolerance = [&](int j) { return cells.tolerance[patches.patches[j].cells.front()]; };
