@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the unseen authors
-"""unseen convert and unseen evaluate planes."""
+"""unseen convert, synth planes and evaluate planes."""
 
 import json
 import unittest
@@ -33,7 +33,7 @@ class Convert(CliTest):
         before = contents(self.folder)
         self.assert_one_line(self.unseen("convert", "room.ply", "room.xlsx"), 3, "room.xlsx")
         self.assert_one_line(self.unseen("convert", "none.ply", "room.pcd"), 3, "none.ply")
-        self.assert_one_line(self.unseen("convert", "room.ply", "no/such/folder.pcd"), 3, "no/such/folder.pcd")
+        self.assert_one_line(self.unseen("convert", "room.ply", "/dev/null/room.pcd"), 3, "/dev/null/room.pcd")
         self.assertEqual(contents(self.folder), before)
 
 
@@ -94,8 +94,8 @@ class Evaluate(CliTest):
         self.assert_one_line(self.unseen("evaluate", "planes", "none", "--truth", "box.obj"), 3, "none")
         self.assert_one_line(self.unseen("evaluate", "planes", "out", "--truth", "none.obj"), 3, "none.obj")
         self.assert_one_line(self.unseen("evaluate", "planes", "out", "--truth", "room.ply"), 3, "room.ply", "label")
-        write_ply(self.folder / "few.ply", room()[:100])
-        self.unseen("planes", "few.ply", "-o", "few", "--scale", "0.5")
+        write_ply(self.folder / "few.ply", room()[:7000])
+        self.assertEqual(self.unseen("planes", "few.ply", "-o", "few").returncode, 0)
         self.assert_one_line(self.unseen("evaluate", "planes", "out", "--truth", "few"), 3, "few", "8000")
         self.assertFalse((self.folder / "out/evaluation.json").exists())
 
@@ -106,6 +106,44 @@ class Evaluate(CliTest):
         self.assert_one_line(self.unseen("evaluate", "planes", "out", "--truth", "box.obj"), 3, "result.json")
         path.write_text("[" * 1000000)
         self.assert_one_line(self.unseen("evaluate", "planes", "out", "--truth", "box.obj"), 3, "result.json")
+
+
+class Synth(CliTest):
+    def test_scene_with_truth(self):
+        run = self.unseen("synth", "planes", "-o", "scene", "--points", "20000", "--seed", "3")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(set(contents(self.folder / "scene")), {"cloud.ply", "truth.obj", "truth.json"})
+        truth = json.loads((self.folder / "scene/truth.json").read_text())
+        self.assertEqual(truth["points"], 20000)
+        self.assertEqual(truth["options"]["seed"], 3)
+        for plane in truth["planes"]:
+            axes = numpy.array(truth["frames"][plane["frame"]]["axes"])
+            self.assertAlmostEqual(numpy.abs(axes @ plane["normal"]).max(), 1, 9)
+        self.assertIn("planes", run.stdout)
+
+    def test_is_found_again(self):
+        self.unseen("synth", "planes", "-o", "scene", "--points", "60000")
+        run = self.unseen("planes", "scene/cloud.ply", "-o", "out", "--scale", "0.05")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for truth in ("scene/truth.obj", "scene/cloud.ply"):
+            run = self.unseen("evaluate", "planes", "out", "--truth", truth)
+            self.assertEqual(run.returncode, 0, run.stderr)
+        score = json.loads((self.folder / "out/evaluation.json").read_text())
+        self.assertEqual(score["truth"]["kind"], "labels")
+        self.assertGreater(score["segments"]["correct"], 0)
+
+    def test_same_seed_same_bytes(self):
+        for name, seed, threads in (("a", 5, 1), ("b", 5, 2), ("c", 6, 2)):
+            self.unseen("synth", "planes", "-o", name, "--points", "5000", "--seed", seed, "--threads", threads)
+        a, b, c = (contents(self.folder / name) for name in "abc")
+        self.assertEqual(a, b)
+        self.assertNotEqual(a["cloud.ply"], c["cloud.ply"])
+
+    def test_bad_options(self):
+        for flag, value in (("--scene", "castle"), ("--points", "-5"), ("--noise", "nan")):
+            self.assert_one_line(self.unseen("synth", "planes", "-o", "scene", flag, value), 2, flag[2:], value)
+        self.assert_one_line(self.unseen("synth", "planes", "-o", "/dev/null/scene", "--points", "5000"), 3, "/dev/null")
+        self.assertEqual(contents(self.folder), {})
 
 
 if __name__ == "__main__":
