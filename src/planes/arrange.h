@@ -15,11 +15,17 @@ struct Constraint {
   double cosine = 0;
 };
 
-/// A plane on its way to the result: which direction it has, which voxels support it.
-struct PlaneModel {
+/// One exact plane in space, which several planes of the result may share (coplanar ones).
+struct Surface {
   int frame = -1, local = -1;  ///< indices into Model::frames and Model::locals
-  Patch support;
+  Patch support;               ///< all that lies on it
   double offset = 0;
+};
+
+/// A plane on its way to the result: a connected part of a surface.
+struct Part {
+  int surface = -1;
+  std::vector<int> cells;  ///< voxels, ascending
 };
 
 /// Everything the refit changes together.
@@ -27,24 +33,26 @@ struct Model {
   std::vector<Vec3> locals;
   std::vector<OrientationFrame> frames;  ///< the one with the most area first
   std::vector<Constraint> constraints;   ///< independent of each other, by rising `a`
-  std::vector<PlaneModel> planes;
+  std::vector<Surface> surfaces;
+  std::vector<Part> parts;
 
-  Vec3 normal(const PlaneModel& p) const { return frames[p.frame].direction(locals[p.local]); }
+  Vec3 normal(const Surface& s) const { return frames[s.frame].direction(locals[s.local]); }
+  Plane plane(const Part& p) const { return {normal(surfaces[p.surface]), surfaces[p.surface].offset}; }
 };
 
 /// Turns a selection into a model: frames that do not differ significantly become one, relations between
-/// frames that do not fail significantly become constraints, and patches of one direction that adjoin within
-/// the scale become one plane.
+/// frames that do not fail significantly become constraints, patches of one direction that adjoin within the
+/// scale become one part, and parts whose offsets do not differ significantly share a surface.
 Model build_model(const Selection& selection, const Patches& patches, const VoxelGrid& grid, const Cells& cells,
                   const AngleSet& angles, const Space& space, Context& context);
 
-/// Least squares over all planes at once with every relation kept exact: a rotation a frame, an offset a plane.
+/// Least squares over all surfaces at once with every relation kept exact: a rotation a frame, an offset a surface.
 void refit(Model& model);
 
-/// Replaces a plane's moments, e.g. by those of the points assigned to it; its variances are scaled along.
-void update_support(PlaneModel& plane, const Moments& moments, const Space& space);
+/// Replaces a surface's moments, e.g. by those of the points assigned to it; its variances are scaled along.
+void update_support(Surface& surface, const Moments& moments, const Space& space);
 
-/// A plane's normal as a residual: how far it turns from its fit along one axis of the plane, and how precise
+/// A surface's normal as a residual: how far it turns from its fit along one of the fit's axes, and how precise
 /// that is. Turning its frame by w changes `value` by w·jacobian.
 struct TiltResidual {
   Vec3 jacobian;

@@ -9,7 +9,59 @@ namespace unseen::planes {
 namespace {
 
 constexpr int kReach = 3;  // voxels of edge ρ/2
+constexpr double kFlat = 0.03;  // variation above which a voxel's normal proves nothing
+constexpr double kLeastSine = 0.17;  // planes at less than 10° have no edge to speak of
+constexpr double kClear = 0.25;      // of the scale: what lies nearer to a plane is on neither side of it
+constexpr double kStray = 0.1;       // share of a plane that may lie on the other side all the same
 const double kCosNormal = std::cos(kPi / 4);
+
+/// What find_reach gathers for one voxel.
+struct VoxelReach {
+  std::vector<ReachedPlane> candidates;
+  std::vector<std::int8_t> side;
+};
+
+/// On which side of each other candidate the supporting voxels of a candidate lie.
+std::vector<std::int8_t> sides(const Reach& reach, const VoxelGrid& grid, const std::vector<int>& plane_of_cell,
+                               std::size_t voxel, const std::vector<ReachedPlane>& candidates) {
+  const std::size_t k = candidates.size();
+  std::vector<double> above(k * k, 0.0), below(k * k, 0.0);
+  const double clear = kClear * reach.tolerance[voxel];
+  grid.for_neighbours(grid.keys[voxel], kReach, [&](int i) {
+    for (std::size_t a = 0; a < k; ++a) {
+      if (plane_of_cell[i] != candidates[a].plane) continue;
+      for (std::size_t b = 0; b < k; ++b) {
+        const double d = reach.planes[candidates[b].plane].signed_distance(grid.moments[i].mean);
+        if (d > clear) above[a * k + b] += grid.moments[i].count;
+        if (d < -clear) below[a * k + b] += grid.moments[i].count;
+      }
+    }
+  });
+  std::vector<std::int8_t> side(k * k, 0);
+  for (std::size_t i = 0; i < k * k; ++i) {
+    if (above[i] > 0 && below[i] < kStray * above[i]) side[i] = 1;
+    if (below[i] > 0 && above[i] < kStray * below[i]) side[i] = -1;
+  }
+  return side;
+}
+
+/// Whether a plane has ended before the foot of a point on it: it lies on one side of another candidate, which
+/// it meets at an angle, and the foot on the other.
+bool beyond_end(const Reach& reach, int voxel, std::size_t a, const Vec3& p) {
+  const std::uint32_t first = reach.first[voxel];
+  const std::size_t k = reach.first[voxel + 1] - first;
+  const Plane& own = reach.planes[reach.candidate[first + a].plane];
+  const double distance = own.signed_distance(p);
+  for (std::size_t b = 0; b < k; ++b) {
+    const std::int8_t side = reach.side[reach.first_side[voxel] + a * k + b];
+    if (side == 0) continue;
+    const Plane& other = reach.planes[reach.candidate[first + b].plane];
+    const double cosine = own.normal.dot(other.normal);
+    if (1.0 - cosine * cosine < kLeastSine * kLeastSine) continue;
+    if (side * (other.signed_distance(p) - distance * cosine) < 0) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -19,14 +71,14 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
   reach.use_point_normals = use_point_normals;
   reach.tolerance = cells.tolerance;
   std::vector<int> plane_of_cell(grid.size(), -1);
-  for (std::size_t p = 0; p < model.planes.size(); ++p) {
-    reach.planes.push_back({model.normal(model.planes[p]), model.planes[p].offset});
-    for (const int i : model.planes[p].support.cells) plane_of_cell[i] = static_cast<int>(p);
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    reach.planes.push_back(model.plane(model.parts[p]));
+    for (const int i : model.parts[p].cells) plane_of_cell[i] = static_cast<int>(p);
   }
-  std::vector<std::vector<ReachedPlane>> lists(grid.size());
+  std::vector<VoxelReach> lists(grid.size());
   parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      std::vector<ReachedPlane>& list = lists[i];
+      std::vector<ReachedPlane>& list = lists[i].candidates;
       const Vec3 center = grid.center_of(grid.keys[i]);
       const double farthest = reach.tolerance[i] + 0.87 * grid.edge;
       grid.for_neighbours(grid.keys[i], kReach, [&](int k) {
@@ -35,23 +87,27 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
         const Plane& plane = reach.planes[p];
         if (std::abs(plane.signed_distance(center)) > farthest) return;
         const Vec3& n = cells.normal[i];
-        list.push_back({p, n.isZero()                                  ? ReachedPlane::unknown
+        const bool flat = !n.isZero() && cells.variation[i] - std::floor(cells.variation[i]) < kFlat;
+        list.push_back({p, !flat                                  ? ReachedPlane::unknown
                            : std::abs(n.dot(plane.normal)) < kCosNormal ? ReachedPlane::contradicts
                                                                         : ReachedPlane::agrees});
       });
       std::sort(list.begin(), list.end(), [](const ReachedPlane& a, const ReachedPlane& b) { return a.plane < b.plane; });
+      if (list.size() > 1) lists[i].side = sides(reach, grid, plane_of_cell, i, list);
     }
   });
   reach.first.push_back(0);
-  for (const auto& list : lists) {
-    reach.candidate.insert(reach.candidate.end(), list.begin(), list.end());
+  for (const VoxelReach& v : lists) {
+    reach.candidate.insert(reach.candidate.end(), v.candidates.begin(), v.candidates.end());
     reach.first.push_back(static_cast<std::uint32_t>(reach.candidate.size()));
+    reach.first_side.push_back(static_cast<std::uint32_t>(reach.side.size()));
+    reach.side.insert(reach.side.end(), v.side.begin(), v.side.end());
   }
   return reach;
 }
 
-void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
-                   std::span<int> plane_of_point, const Context& context) {
+void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
+                   const Context& context) {
   parallel_blocks(context, block.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     VoxelKey last{};
     int voxel = -2;
@@ -67,11 +123,12 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
       if (voxel < 0) continue;
       double nearest = reach.tolerance[voxel], nearest_unsure = nearest;
       int unsure = -1;
-      for (std::uint32_t c = reach.first[voxel]; c < reach.first[voxel + 1]; ++c) {
+      const std::uint32_t first = reach.first[voxel], end = reach.first[voxel + 1];
+      for (std::uint32_t c = first; c < end; ++c) {
         const ReachedPlane& candidate = reach.candidate[c];
         const Plane& plane = reach.planes[candidate.plane];
         const double distance = std::abs(plane.signed_distance(p));
-        if (distance >= nearest) continue;
+        if (distance >= nearest || (end - first > 1 && beyond_end(reach, voxel, c - first, p))) continue;
         ReachedPlane::Normal normal = candidate.normal;
         if (normal != ReachedPlane::agrees && reach.use_point_normals) {
           const Vec3 n = block.normals[i].cast<double>();
@@ -94,8 +151,8 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
   });
 }
 
-PlaneSums::PlaneSums(const Model& model, double scale) : step_(scale / 65536.0), sums_(model.planes.size()) {
-  for (const PlaneModel& p : model.planes) origin_.push_back(p.support.moments.mean);
+PlaneSums::PlaneSums(const Model& model, double scale) : step_(scale / 65536.0), sums_(model.parts.size()) {
+  for (const Part& p : model.parts) origin_.push_back(model.surfaces[p.surface].support.moments.mean);
 }
 
 void PlaneSums::add(const PointCloud& block, std::span<const int> plane_of_point, const std::vector<bool>& skip) {

@@ -15,12 +15,16 @@ struct ReachedPlane {
   enum Normal : std::int8_t { agrees, unknown, contradicts } normal;
 };
 
-/// Which planes each voxel's points can belong to.
+/// Which planes each voxel's points can belong to, and where those end.
 struct Reach {
   std::vector<Plane> planes;
   std::vector<std::uint32_t> first;     ///< per voxel: where its candidates start; one longer than the voxels
   std::vector<ReachedPlane> candidate;  ///< by plane within a voxel
-  std::vector<double> tolerance;        ///< m, per voxel: a point farther than this has no plane
+  /// Per voxel with k > 1 candidates, k×k signs from first_side: on which side of candidate b candidate a lies
+  /// around here (+1, −1), or 0 if on both.
+  std::vector<std::int8_t> side;
+  std::vector<std::uint32_t> first_side;
+  std::vector<double> tolerance;  ///< m, per voxel: a point farther than this has no plane
   bool use_point_normals = false;
 };
 
@@ -28,8 +32,9 @@ struct Reach {
 Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, bool use_point_normals,
                  const Context& context);
 
-/// Plane of each point of a block: the nearest that reaches it and with which the voxel's normal or its own is
-/// compatible (45°), else the nearest where the voxel has no normal; −1 = none, or not finite.
+/// Plane of each point of a block: the nearest that reaches it, that does not end before it at another plane, and
+/// with which the voxel's normal or its own is compatible (45°), else the nearest where the voxel has no normal;
+/// −1 = none, or not finite.
 void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
                    const Context& context);
 

@@ -14,9 +14,9 @@ namespace {
 constexpr double kSameDirection = 1e-9;  // rad: shared axes are equal up to rounding
 
 /// A second axis of the plane's frame that lies in the plane, so that outlines follow walls.
-Vec3 in_plane_axis(const Model& model, const PlaneModel& plane) {
-  const Vec3 n = model.normal(plane);
-  const Mat3& axes = model.frames[plane.frame].axes;
+Vec3 in_plane_axis(const Model& model, const Surface& surface) {
+  const Vec3 n = model.normal(surface);
+  const Mat3& axes = model.frames[surface.frame].axes;
   for (int a = 0; a < 3; ++a)
     if (std::abs(axes.col(a).dot(n)) < 1e-9) return axes.col(a);
   return any_orthogonal(n);
@@ -39,19 +39,19 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
                                  const Space& space, Arrangement& result, const Context& context) {
   // The largest planes first: ids are stable and lists start with what matters.
   std::vector<int> order;
-  for (std::size_t p = 0; p < model.planes.size(); ++p)
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
     if (sums[p].count >= 3) order.push_back(static_cast<int>(p));
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return model.planes[a].support.area > model.planes[b].support.area;
+    return model.parts[a].cells.size() > model.parts[b].cells.size();
   });
-  std::vector<int> renumber(model.planes.size(), -1);
+  std::vector<int> renumber(model.parts.size(), -1);
   std::vector<int> result_frame(model.frames.size(), -1);
   std::map<std::pair<int, int>, int> direction_of;
   for (const int p : order) {
-    const PlaneModel& m = model.planes[p];
+    const Surface& m = model.surfaces[model.parts[p].surface];
     renumber[p] = static_cast<int>(result.planes.size());
     ArrangedPlane plane;
-    plane.plane = {model.normal(m), m.offset};
+    plane.plane = model.plane(model.parts[p]);
     auto [it, fresh] = direction_of.try_emplace({m.frame, m.local}, -1);
     if (fresh) {
       for (std::size_t d = 0; d < result.directions.size() && it->second < 0; ++d)
@@ -78,16 +78,16 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
   }
   parallel_blocks(context, order.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const PlaneModel& m = model.planes[order[i]];
+      const Part& part = model.parts[order[i]];
       ArrangedPlane& plane = result.planes[i];
       std::vector<Vec3> points;
-      for (const int c : m.support.cells) points.push_back(grid.moments[c].mean);
+      for (const int c : part.cells) points.push_back(grid.moments[c].mean);
       if (space.is_2d()) {
         plane.segment = segment_of(points, plane.plane, space.flat_axis->cross(plane.plane.normal), grid.edge);
         plane.area = ((*plane.segment)[1] - (*plane.segment)[0]).norm();
         continue;
       }
-      plane.polygon = outline(points, plane.plane, in_plane_axis(model, m), grid.edge);
+      plane.polygon = outline(points, plane.plane, in_plane_axis(model, model.surfaces[part.surface]), grid.edge);
       plane.area = area_of(plane.polygon, plane.plane.normal);
     }
   });

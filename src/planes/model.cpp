@@ -40,6 +40,44 @@ std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& 
   return group;
 }
 
+/// Gives parts of one direction whose offsets do not differ significantly one surface, the largest part first.
+void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, const Space& space, double scale,
+                    const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
+                    Model& model) {
+  constexpr double kTilt = 0.05 * kPi / 180.0;  // rad, how precisely a common direction is known
+  struct Sum {
+    Moments moments;
+    double variance;  // m², of the offset
+    Vec3 normal;
+    std::vector<int> cells;
+  };
+  std::vector<Sum> sums;
+  for (std::size_t j = 0; j < cells.size(); ++j) {
+    if (cells[j].empty()) continue;
+    const Patch patch = make_patch(grid, space, cells[j]);
+    const double variance = std::pow(0.03 * scale, 2) + std::pow(patch.fit.rms, 2) / patch.moments.count;
+    int to = -1;
+    for (std::size_t s = 0; s < sums.size() && to < 0; ++s) {
+      if (line_angle(sums[s].normal, normals[j]) > 1e-7) continue;
+      const Vec3 apart = patch.moments.mean - sums[s].moments.mean;
+      const double limit = 3.0 * std::sqrt(variance + sums[s].variance + std::pow(kTilt * apart.norm(), 2));
+      if (std::abs(normals[j].dot(apart)) < std::min(0.5 * scale, limit)) to = static_cast<int>(s);
+    }
+    if (to < 0) {
+      to = static_cast<int>(sums.size());
+      sums.push_back({{}, variance, normals[j], {}});
+      model.surfaces.push_back({frame[j], local[j], {}, 0.0});
+    }
+    sums[to].moments += patch.moments;
+    sums[to].cells.insert(sums[to].cells.end(), patch.cells.begin(), patch.cells.end());
+    model.parts.push_back({to, patch.cells});
+  }
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    std::sort(sums[s].cells.begin(), sums[s].cells.end());
+    model.surfaces[s].support = make_patch(grid, space, std::move(sums[s].cells));
+  }
+}
+
 }  // namespace
 
 Model build_model(const Selection& selection, const Patches& patches, const VoxelGrid& grid, const Cells& cells,
@@ -60,15 +98,8 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
     const std::vector<int>& c = patches.patches[j].cells;
     cells_of[group[j]].insert(cells_of[group[j]].end(), c.begin(), c.end());
   }
-  for (std::size_t j = 0; j < patches.patches.size(); ++j) {
-    if (cells_of[j].empty()) continue;
-    std::sort(cells_of[j].begin(), cells_of[j].end());
-    PlaneModel plane;
-    plane.frame = r.frame_of_patch[j];
-    plane.local = r.local_of_patch[j];
-    plane.support = make_patch(grid, space, std::move(cells_of[j]));
-    model.planes.push_back(std::move(plane));
-  }
+  for (std::vector<int>& c : cells_of) std::sort(c.begin(), c.end());
+  share_surfaces(normals, grid, space, 2.0 * grid.edge, r.frame_of_patch, r.local_of_patch, std::move(cells_of), model);
   return model;
 }
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include "planes/patches.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -36,9 +37,10 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
   const std::vector<int>& patch_of_cell = result.patch_of_cell;
   std::vector<int> parent;
   const VoxelGrid coarse = grid.coarser(parent);  // voxels of edge ρ
-  struct Member {
+  struct Member {  // a patch's share of a voxel
     int patch;
-    Vec3 mean, normal;
+    Eigen::AlignedBox3d box;
+    Vec3 normal;
     double tolerance;
   };
   std::vector<std::vector<Member>> members(coarse.size());
@@ -46,15 +48,16 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     const int patch = patch_of_cell[i];
     if (patch < 0) continue;
     auto& list = members[parent[i]];
-    if (std::none_of(list.begin(), list.end(), [&](const Member& m) { return m.patch == patch; }))
-      list.push_back({patch, grid.moments[i].mean, cells.normal[i], cells.tolerance[i]});
+    auto it = std::find_if(list.begin(), list.end(), [&](const Member& m) { return m.patch == patch; });
+    if (it == list.end()) it = list.insert(it, {patch, {}, cells.normal[i], cells.tolerance[i]});
+    it->box.extend(grid.moments[i].mean);
   }
   std::set<std::pair<int, int>> adjoining, neighbours;
   for (std::size_t c = 0; c < coarse.size(); ++c)
     for (const Member& a : members[c])
       coarse.for_neighbours(coarse.keys[c], 2, [&](int o) {
         for (const Member& b : members[o])
-          if (a.patch < b.patch && (a.mean - b.mean).norm() < 2.0 * a.tolerance) {
+          if (a.patch < b.patch && a.box.exteriorDistance(b.box) < 2.0 * a.tolerance) {
             adjoining.insert({a.patch, b.patch});
             if (line_angle(a.normal, b.normal) < angle) neighbours.insert({a.patch, b.patch});
           }

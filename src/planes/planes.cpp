@@ -121,7 +121,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     model = build_model(selection, patches, grid, cells, angles, space, context);
     refit(model);
   }
-  std::vector<Moments> sums(model.planes.size());
+  std::vector<Moments> sums(model.parts.size());
   {
     Stage stage(context, summary, "refit");
     const Reach reach = find_reach(model, grid, cells, use_normals, context);
@@ -129,10 +129,12 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, const std::vector<int>& plane) {
       points.add(block, plane, seen.duplicate);
     });
+    std::vector<Moments> on_surface(model.surfaces.size());
     for (std::size_t p = 0; p < sums.size(); ++p) {
       sums[p] = points.moments(p);
-      update_support(model.planes[p], sums[p], space);
+      on_surface[model.parts[p].surface] += sums[p];
     }
+    for (std::size_t s = 0; s < on_surface.size(); ++s) update_support(model.surfaces[s], on_surface[s], space);
     refit(model);
   }
   {

@@ -9,7 +9,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no plane is known better than this
+constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no surface is known better than this
 
 }  // namespace
 
@@ -43,14 +43,14 @@ void refit(Model& model) {
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(total, total);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(total);
     double largest = 0;
-    for (const PlaneModel& plane : model.planes)
-      for (const TiltResidual& r : tilt_residuals(plane.support, model.normal(plane), kFloor)) {
-        const int at = 3 * plane.frame;
+    for (const Surface& surface : model.surfaces)
+      for (const TiltResidual& r : tilt_residuals(surface.support, model.normal(surface), kFloor)) {
+        const int at = 3 * surface.frame;
         system.block<3, 3>(at, at) += r.weight * r.jacobian * r.jacobian.transpose();
         right.segment<3>(at) -= r.weight * r.value * r.jacobian;
         largest = std::max(largest, r.weight);
       }
-    // What no plane determines stays where it is.
+    // What no surface determines stays where it is.
     system.diagonal().head(turns).array() += 1e-9 * largest;
     for (std::size_t i = 0; i < model.constraints.size(); ++i) {
       const Constraint& c = model.constraints[i];
@@ -67,12 +67,12 @@ void refit(Model& model) {
       model.frames[f].axes = turned(model.frames[f].axes, step.segment<3>(3 * static_cast<int>(f)));
     if (step.head(turns).norm() < 1e-14) break;
   }
-  for (PlaneModel& plane : model.planes) plane.offset = model.normal(plane).dot(plane.support.moments.mean);
+  for (Surface& s : model.surfaces) s.offset = model.normal(s).dot(s.support.moments.mean);
 }
 
-void update_support(PlaneModel& plane, const Moments& moments, const Space& space) {
+void update_support(Surface& surface, const Moments& moments, const Space& space) {
   if (moments.count < 3) return;
-  Patch& s = plane.support;
+  Patch& s = surface.support;
   const auto plain = [](const PlaneFit& fit, double spread, double count) {
     return fit.rms * fit.rms / std::max(count * spread * spread, 1e-300);
   };
