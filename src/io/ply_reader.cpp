@@ -142,8 +142,9 @@ class PlySource final : public PointSource {
         else
           set_value(block, i, columns_[c], value);
       }
-      if (!trim({p, static_cast<std::size_t>(end - p)}).empty())
-        fail("line " + std::to_string(lines_.number()), shown({p, static_cast<std::size_t>(end - p)}),
+      const std::string_view rest = trim({p, static_cast<std::size_t>(end - p)});
+      if (!rest.empty())
+        fail("line " + std::to_string(lines_.number()), shown(rest),
              "the end of the line after " + count_of(columns_.size(), "value"));
     }
   }

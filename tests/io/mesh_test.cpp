@@ -68,7 +68,7 @@ TEST(Mesh, SamplesAreUniformSeededAndLabelled) {
   ASSERT_EQ(cloud.size(), 9000u);
   std::size_t upper = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    EXPECT_EQ(cloud.labels[i] == 1, cloud.positions[i].z() == 1.0);
+    EXPECT_NEAR(cloud.positions[i].z(), cloud.labels[i], 1e-12);
     upper += cloud.labels[i] == 1;
   }
   EXPECT_NEAR(static_cast<double>(upper), 1000.0, 150.0);

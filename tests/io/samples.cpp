@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
@@ -59,7 +60,8 @@ void expect_read_error(const std::string& bytes, const std::string& name,
 }
 
 void expect_same(const PointCloud& a, const PointCloud& b) {
-  EXPECT_EQ(a.positions, b.positions);
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.positions.data(), b.positions.data(), a.size() * sizeof(Vec3)), 0);
   EXPECT_EQ(a.normals, b.normals);
   EXPECT_EQ(a.colors, b.colors);
   EXPECT_EQ(a.labels, b.labels);

@@ -98,7 +98,7 @@ TEST(Text, FaultsNameFileAndLine) {
   bad("1 2 3\n4 5 6 7\n", {"line 2"});
   bad("1 2 3\n4 five 6\n", {"line 2", "five"});
   bad("1,2,3\n4,5\n", {"line 2", "4,5"});
-  bad("a,b,c\n1\n", {"line 2"});
+  bad("a,b,c\n1\n", {"count of points", "0 lines"});
   bad(std::string("\xff\xfe"
                   "1\0 \0",
                   6),
