@@ -10,9 +10,9 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "unseen/core/error.h"
+#include "unseen/io/add_to_result.h"
 #include "unseen/io/config.h"
 #include "unseen/io/mesh.h"
-#include "unseen/io/output_folder.h"
 #include "unseen/io/points.h"
 #include "unseen/planes/evaluate.h"
 #include "unseen/report/planes_evaluation.h"
@@ -173,7 +173,7 @@ int run(Arguments& args) {
   const fs::path folder =
       fs::is_directory(args.result) ? fs::path(args.result) : fs::path(args.result).parent_path();
   const std::string json = report::evaluation_json(e);
-  io::write_file_atomically(folder / "evaluation.json", json);
+  io::add_to_result(folder, "evaluation.json", json);
   progress.clear();
   if (args.common.json) {
     fmt::print("{}", json);

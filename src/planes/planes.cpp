@@ -30,7 +30,7 @@ std::optional<Vec3> viewpoint_of(const Options& options, const SourceInfo& info)
 }
 
 void check_distinct(const Survey& survey, const std::string& name) {
-  if (survey.finite - survey.duplicates < 2)
+  if (survey.low == survey.high)
     throw InputError(name, "points", "1 distinct", "at least three that are not in a line");
 }
 

@@ -84,6 +84,14 @@ class Evaluate(CliTest):
         self.assertEqual(score["segments"]["f1"], 1)
         self.assertIn("F1", run.stdout)
 
+    def test_next_result_takes_the_score_of_the_last_away(self):
+        self.evaluation("box.obj")
+        self.evaluation("box.obj")
+        (self.folder / "out/notes.txt").write_text("mine")
+        self.assertEqual(self.unseen("planes", "room.ply", "-o", "out").returncode, 0)
+        self.assertFalse((self.folder / "out/evaluation.json").exists())
+        self.assertEqual((self.folder / "out/notes.txt").read_text(), "mine")
+
     def test_json_is_the_file(self):
         score, run = self.evaluation("box.obj", "--json", "--pairs", "1000", "--scale", "0.03")
         self.assertEqual(json.loads(run.stdout), score)
