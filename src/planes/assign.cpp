@@ -9,9 +9,9 @@ namespace unseen::planes {
 namespace {
 
 constexpr int kReach = 3;  // voxels of edge ρ/2
-constexpr double kFlat = 0.03;  // variation above which a voxel's normal proves nothing
 constexpr double kLeastSine = 0.17;  // planes at less than 10° have no edge to speak of
 constexpr double kClear = 0.25;      // of the scale: what lies nearer to a plane is on neither side of it
+constexpr int kBeyondEnd = 2, kContradicted = 4;  // ranks of candidates, worse than what their normals say
 constexpr double kStray = 0.1;       // share of a plane that may lie on the other side all the same
 const double kCosNormal = std::cos(kPi / 4);
 
@@ -86,11 +86,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
         if (p < 0 || std::any_of(list.begin(), list.end(), [&](const ReachedPlane& r) { return r.plane == p; })) return;
         const Plane& plane = reach.planes[p];
         if (std::abs(plane.signed_distance(center)) > farthest) return;
-        const Vec3& n = cells.normal[i];
-        const bool flat = !n.isZero() && cells.variation[i] - std::floor(cells.variation[i]) < kFlat;
-        list.push_back({p, !flat                                  ? ReachedPlane::unknown
-                           : std::abs(n.dot(plane.normal)) < kCosNormal ? ReachedPlane::contradicts
-                                                                        : ReachedPlane::agrees});
+        list.push_back({p, compare_normal(cells, i, plane.normal)});
       });
       std::sort(list.begin(), list.end(), [](const ReachedPlane& a, const ReachedPlane& b) { return a.plane < b.plane; });
       if (list.size() > 1) lists[i].side = sides(reach, grid, plane_of_cell, i, list);
@@ -121,32 +117,31 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
         last = key;
       }
       if (voxel < 0) continue;
-      double nearest = reach.tolerance[voxel], nearest_unsure = nearest;
-      int unsure = -1;
+      double nearest = reach.tolerance[voxel];
+      int worst = kContradicted;  // rank of the best candidate so far: lower is better, distance decides ties
       const std::uint32_t first = reach.first[voxel], end = reach.first[voxel + 1];
       for (std::uint32_t c = first; c < end; ++c) {
         const ReachedPlane& candidate = reach.candidate[c];
         const Plane& plane = reach.planes[candidate.plane];
         const double distance = std::abs(plane.signed_distance(p));
-        if (distance >= nearest || (end - first > 1 && beyond_end(reach, voxel, c - first, p))) continue;
-        ReachedPlane::Normal normal = candidate.normal;
-        if (normal != ReachedPlane::agrees && reach.use_point_normals) {
+        if (distance >= reach.tolerance[voxel]) continue;
+        NormalVerdict verdict = candidate.normal;
+        if (verdict != NormalVerdict::agrees && reach.use_point_normals) {
           const Vec3 n = block.normals[i].cast<double>();
           const double length = n.norm();
           if (length > 0.5 && length < 2.0 && std::abs(n.dot(plane.normal)) >= kCosNormal * length)
-            normal = ReachedPlane::agrees;
-        } else if (normal == ReachedPlane::unknown) {
-          normal = ReachedPlane::agrees;
+            verdict = NormalVerdict::agrees;
+        } else if (verdict == NormalVerdict::unknown) {
+          verdict = NormalVerdict::agrees;
         }
-        if (normal == ReachedPlane::agrees) {
-          nearest = distance;
-          plane_of_point[i] = candidate.plane;
-        } else if (normal == ReachedPlane::unknown && distance < nearest_unsure) {
-          nearest_unsure = distance;
-          unsure = candidate.plane;
-        }
+        if (verdict == NormalVerdict::contradicts) continue;
+        int rank = static_cast<int>(verdict);
+        if (end - first > 1 && beyond_end(reach, voxel, c - first, p)) rank += kBeyondEnd;
+        if (rank > worst || (rank == worst && distance >= nearest)) continue;
+        worst = rank;
+        nearest = distance;
+        plane_of_point[i] = candidate.plane;
       }
-      if (plane_of_point[i] < 0) plane_of_point[i] = unsure;
     }
   });
 }

@@ -9,10 +9,14 @@
 
 namespace unseen::planes {
 
+/// Lets the model's parts grow over voxels that no patch took (where planes meet, normals are not reliable) while
+/// these lie on the part's plane within half the scale and their normals do not contradict it.
+void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const Context& context);
+
 /// A plane that a voxel's points may belong to, and whether the voxel's own normal speaks for it.
 struct ReachedPlane {
   std::int32_t plane;
-  enum Normal : std::int8_t { agrees, unknown, contradicts } normal;
+  NormalVerdict normal;
 };
 
 /// Which planes each voxel's points can belong to, and where those end.
@@ -32,9 +36,9 @@ struct Reach {
 Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, bool use_point_normals,
                  const Context& context);
 
-/// Plane of each point of a block: the nearest that reaches it, that does not end before it at another plane, and
-/// with which the voxel's normal or its own is compatible (45°), else the nearest where the voxel has no normal;
-/// −1 = none, or not finite.
+/// Plane of each point of a block: among those that reach it, and that its voxel's normal or its own does not
+/// contradict (45°), first those that do not end before it at another plane, then those that the normals speak
+/// for, then the nearest; −1 = none, or not finite.
 void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
                    const Context& context);
 

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kLevels = 4;
 constexpr double kFlattest = 0.15;       // λ₀/λ₁ above which a neighbourhood has no reliable normal
+constexpr double kProves = 0.03;         // variation above which a normal proves nothing
+const double kCompatible = std::cos(kPi / 4);
 constexpr double kNormalError = 0.06;    // rad, largest standard error of a normal
 
 struct Level {
@@ -54,6 +56,13 @@ bool reliable(const PlaneFit& fit, double count, const Space& space) {
 }
 
 }  // namespace
+
+NormalVerdict compare_normal(const Cells& cells, std::size_t voxel, const Vec3& normal) {
+  const Vec3& n = cells.normal[voxel];
+  const double variation = cells.variation[voxel];
+  if (n.isZero() || variation - std::floor(variation) > kProves) return NormalVerdict::unknown;
+  return std::abs(n.dot(normal)) >= kCompatible ? NormalVerdict::agrees : NormalVerdict::contradicts;
+}
 
 Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& context) {
   std::vector<Level> levels(kLevels);

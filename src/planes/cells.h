@@ -15,6 +15,10 @@ struct Cells {
   std::vector<double> tolerance;  ///< m, the local scale: ρ, or more with an adaptive scale
 };
 
+/// What a voxel's normal says of a plane's: only a flat neighbourhood proves anything.
+enum class NormalVerdict : std::int8_t { agrees, unknown, contradicts };
+NormalVerdict compare_normal(const Cells& cells, std::size_t voxel, const Vec3& normal);
+
 /// Estimates each voxel's normal by PCA over the smallest of the radii ρ, 2ρ, 4ρ, 8ρ (grid.edge = ρ/2) whose
 /// neighbourhood is flat enough to have one; where there is none, from the input's own normals.
 Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& context);

@@ -120,6 +120,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     record(selection, summary);
     model = build_model(selection, patches, grid, cells, angles, space, context);
     refit(model);
+    extend_parts(model, grid, cells, context);
   }
   std::vector<Moments> sums(model.parts.size());
   {
