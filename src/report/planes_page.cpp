@@ -59,7 +59,7 @@ std::string pictures(const planes::Arrangement& a, const PointSample& points) {
     return text + "</div>\n";
   }
   text += figure(svg_of_planes(a, oblique_view(), "Oblique view"),
-                 "Planes, coloured by orientation frame, without ceilings");
+                 "Planes, coloured by orientation frame; ceilings above a floor are left out");
   text += figure(svg_of_planes(a, top_view(), "Top view"), "The same from above");
   if (!points.positions.empty())
     text += figure(svg_of_points(a, points, oblique_view(), kDots, "Points"),

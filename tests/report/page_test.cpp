@@ -66,6 +66,14 @@ TEST(Page, StandsAloneAndShowsEveryPlane) {
         << tag;
 }
 
+TEST(Page, CeilingsGoOnlyWhereTheyHideAFloor) {
+  planes::Arrangement a = sample_room();
+  a.planes[3].tag = "ceiling";
+  EXPECT_EQ(occurrences(page_of(a, "room.ply"), "class=\"plane\""), 8u);
+  a.planes[0].tag = "";
+  EXPECT_EQ(occurrences(page_of(a, "roof.ply"), "class=\"plane\""), 10u);
+}
+
 TEST(Page, DrawingsAndNothingAreDrawn) {
   const std::string drawing = page_of(sample_drawing(), "plan.png");
   EXPECT_EQ(occurrences(drawing, "class=\"segment\""), 2u);
