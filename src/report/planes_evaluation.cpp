@@ -28,7 +28,8 @@ Json score_of(const planes::AssignmentScore& s) {
 }
 
 std::string line(const std::string& name, const std::string& first, const std::string& second = "") {
-  return fmt::format("{:<36}{:>14}", name, first) + (second.empty() ? "" : fmt::format("{:>16}", second)) + "\n";
+  return fmt::format("{:<36}{:>14}", name, first) + (second.empty() ? "" : fmt::format("{:>16}", second)) +
+         "\n";
 }
 
 std::string line(const std::string& name, std::size_t count) {
@@ -52,7 +53,7 @@ std::string truth_lines(const planes::TruthScore& t) {
   text += line("  not covered by the truth", t.uncovered);
   text += line("", "as assigned", "nearest plane");
   for (const auto& [angles, of] : {std::pair{&Score::angles, ""}, {&Score::angles_recalled, ", recalled"}}) {
-    const auto figure = [&, a = angles](const std::string& name, auto value) {
+    const auto figure = [&, a = angles, of = std::string(of)](const std::string& name, auto value) {
       text += both(name + of, [&](const Score& s) { return value(s.*a); });
     };
     figure("angle error, mean", [](const planes::AngleScore& s) { return angle(s.mean); });
