@@ -22,19 +22,20 @@ std::string help_of(const Option& option) {
 
 }  // namespace
 
-void bind(CLI::App& app, const OptionTable& table, GivenOptions& given) {
+void add_flags(CLI::App& app, const OptionTable& table, GivenOptions& given) {
   for (const Option& option : table.all()) {
     const std::string name = option.name;
     if (std::holds_alternative<bool*>(option.target)) {
       app.add_flag_function(
-          option.flag(), [name, &given](std::int64_t n) { given.emplace_back(name, n > 0 ? "true" : "false"); },
+          option.flag(),
+          [name, &given](std::int64_t n) { given.emplace_back(name, n > 0 ? "true" : "false"); },
           help_of(option));
     } else {
       const bool is_list = std::holds_alternative<std::vector<double>*>(option.target);
       app.add_option_function<std::string>(
              option.flag(), [name, &given](const std::string& text) { given.emplace_back(name, text); },
              help_of(option))
-          ->type_name(option.choices.empty() ? (is_list ? "X,Y,…" : "X") : "NAME");
+          ->type_name(option.choices.empty() ? (is_list ? "X,Y,.." : "X") : "NAME");
     }
   }
 }
@@ -43,18 +44,21 @@ void append(OptionTable& table, const OptionTable& more) {
   for (const Option& option : more.all()) table.add(option);
 }
 
-void resolve(OptionTable& table, const std::string& config_file, const GivenOptions& given) {
-  if (!config_file.empty()) io::apply_config(table, config_file);
+void resolve(OptionTable& table, const std::string& config_file, const std::string& section,
+             const GivenOptions& given) {
+  if (!config_file.empty())
+    io::apply_config(table, config_file, section,
+                     {"planes", "cuboids", "collision", "interactions", "convert", "evaluate", "synth"});
   for (const auto& [name, text] : given) table.set_text(name, text, kCommandLine);
 }
 
-void bind(CLI::App& app, CommonFlags& flags) {
+void add_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--config", flags.config_file, "take options from this TOML file; flags given here win")
       ->type_name("FILE.toml");
   app.add_flag("--dump-config", flags.dump_config, "print all options as such a file, and end");
   app.add_option("--threads", flags.threads, "at most this many threads; 0 = as many as the machine has")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+      ->check(CLI::Range(0, 1024))
+      ->type_name("N");
   app.add_flag("--quiet", flags.quiet, "print nothing but errors");
   app.add_flag("--json", flags.json, "print the summary as JSON");
   app.set_version_flag("--version", fmt::format("unseen {}", kVersion));

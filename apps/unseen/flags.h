@@ -25,13 +25,15 @@ using GivenOptions = std::vector<std::pair<std::string, std::string>>;
 
 /// Makes a flag of every option of the table; what the user gives is collected in `given`, which must live
 /// as long as the app.
-void bind(CLI::App& app, const OptionTable& table, GivenOptions& given);
+void add_flags(CLI::App& app, const OptionTable& table, GivenOptions& given);
 
 /// Appends the options of `more` to `table`.
 void append(OptionTable& table, const OptionTable& more);
 
-/// Sets what the config file says (unless empty), then what the command line says: the latter wins.
-void resolve(OptionTable& table, const std::string& config_file, const GivenOptions& given);
+/// Sets what the config file says (unless its name is empty), outside any table or in the table `section`,
+/// then what the command line says: the latter wins.
+void resolve(OptionTable& table, const std::string& config_file, const std::string& section,
+             const GivenOptions& given);
 
 /// Flags that all commands share.
 struct CommonFlags {
@@ -41,7 +43,7 @@ struct CommonFlags {
   bool quiet = false;
   bool json = false;
 };
-void bind(CLI::App& app, CommonFlags& flags);
+void add_flags(CLI::App& app, CommonFlags& flags);
 
 /// A positional or an option that only counts once --dump-config is out of the way.
 const std::string& require(const std::string& value, const std::string& what);

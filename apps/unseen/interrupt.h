@@ -7,8 +7,8 @@
 
 namespace unseen::cli {
 
-/// While it lives, the first Ctrl-C (SIGINT or SIGTERM) asks the run to stop, the second one kills the program
-/// with exit code 130. Make it before any other thread is started.
+/// While it lives, the first Ctrl-C (SIGINT or SIGTERM) asks the run to stop, the second one kills the
+/// program with exit code 130. Make it before any other thread is started.
 class Interrupt {
  public:
   Interrupt();

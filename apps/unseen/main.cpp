@@ -31,7 +31,7 @@ int run(const CLI::App& app, const std::vector<Command>& commands) {
   try {
     for (const Command& command : commands)
       if (command.app->parsed()) return command.run();
-    return report(kUsage, "a subcommand is missing; see unseen --help");
+    throw UsageError("a subcommand is missing");
   } catch (const UsageError& e) {
     return report(kUsage, fmt::format("{}; see {} --help", e.what(), command_name(app)));
   } catch (const InputError& e) {
@@ -52,13 +52,14 @@ int main(int argc, char** argv) {
   using namespace unseen::cli;
   CLI::App app("Finds out what a scan or a video does not show.", "unseen");
   app.set_version_flag("--version", fmt::format("unseen {}", unseen::kVersion));
-  app.require_subcommand(1);
-  app.footer("Each subcommand has its own --help with an example.\n"
-             "Exit codes: 0 solved, 2 usage, 3 bad input, 4 no solution, 130 interrupted, 1 internal fault.");
+  app.require_subcommand(0, 1);
+  app.footer(
+      "Each subcommand has its own --help with an example.\n"
+      "Exit codes: 0 solved, 2 usage, 3 bad input, 4 no solution, 130 interrupted, 1 internal fault.");
   CLI::App* synth = app.add_subcommand("synth", "Make a scene with exact truth");
   CLI::App* evaluate = app.add_subcommand("evaluate", "Measure a result against truth");
-  synth->require_subcommand(1)->footer("Example:\n  unseen synth planes -o room --seed 7");
-  evaluate->require_subcommand(1)->footer("Example:\n  unseen evaluate planes OUT --truth house.obj");
+  synth->require_subcommand(0, 1)->footer("Example:\n  unseen synth planes -o room --seed 7");
+  evaluate->require_subcommand(0, 1)->footer("Example:\n  unseen evaluate planes OUT --truth house.obj");
   const std::vector<Command> commands = {add_planes(app, shell_command(argc, argv)), add_convert(app),
                                          add_synth_planes(*synth), add_evaluate_planes(*evaluate)};
   try {

@@ -33,7 +33,6 @@ Progress::Progress(bool quiet) : quiet_(quiet), terminal_(!quiet && isatty(STDER
 void Progress::attach(Context& context) {
   if (terminal_)
     context.on_progress = [this](std::string_view stage, double fraction) { show(stage, fraction); };
-  context.on_message = [this](std::string_view text) { message(text); };
 }
 
 void Progress::show(std::string_view stage, double fraction) {
@@ -60,10 +59,10 @@ void Progress::show(std::string_view stage, double fraction) {
   drawn_ = true;
 }
 
-void Progress::message(std::string_view text) {
-  if (quiet_) return;
+void Progress::warn(const std::vector<std::string>& warnings) {
   clear();
-  fmt::print(stderr, "unseen: {}\n", printable(text));
+  if (quiet_) return;
+  for (const std::string& warning : warnings) fmt::print(stderr, "unseen: warning: {}\n", printable(warning));
 }
 
 void Progress::clear() {

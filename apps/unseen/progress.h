@@ -5,13 +5,14 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "unseen/core/context.h"
 
 namespace unseen::cli {
 
 /// Shows a run on standard error: one line that is rewritten (stage, share, time left), only if that is a
-/// terminal, and messages as lines of their own. `quiet` shows nothing.
+/// terminal. `quiet` shows nothing.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -22,9 +23,10 @@ class Progress {
   /// Lets the context report here; it must not be used after this object's end.
   void attach(Context& context);
   void show(std::string_view stage, double fraction);
-  void message(std::string_view text);
   /// Takes the line away.
   void clear();
+  /// A line for each warning, once the run is over: a run that fails says one thing only.
+  void warn(const std::vector<std::string>& warnings);
 
  private:
   using Clock = std::chrono::steady_clock;

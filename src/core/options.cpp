@@ -70,6 +70,8 @@ std::string Option::text() const {
 std::string Option::range() const {
   if (!choices.empty()) return fmt::format("one of {}", fmt::join(choices, ", "));
   const bool low = std::isfinite(min), high = std::isfinite(max);
+  const bool positive = min == std::numeric_limits<double>::min();
+  if (positive) return high ? fmt::format("above 0, at most {}", max) : "above 0";
   if (low && high) return fmt::format("{}…{}", min, max);
   if (low) return fmt::format("at least {}", min);
   if (high) return fmt::format("at most {}", max);

@@ -29,7 +29,7 @@ std::vector<double> read_numbers(const fs::path& path, std::size_t count) {
     for (const std::string_view word : words(line)) {
       double value = 0;
       if (!to_number(word, value))
-        throw InputError(path.string(), "line " + std::to_string(lines.number()), quoted(word), "a number");
+        throw InputError(path.string(), "line " + std::to_string(lines.number()), shown(word), "a number");
       numbers.push_back(value);
     }
   if (numbers.size() != count)

@@ -27,12 +27,13 @@ class DepthSource final : public PointSource {
   SourceInfo info() const override { return info_; }
 
   void rewind() override {
+    started_ = true;
     decode_ahead(0);
     points_ = 0;
   }
 
   bool next(PointCloud& block) override {
-    if (!ahead_.valid()) rewind();
+    if (!started_) rewind();
     resize_empty(block);
     while (at_ < folder_.frames.size()) {
       const std::size_t frame = at_;
@@ -114,6 +115,7 @@ class DepthSource final : public PointSource {
   SourceInfo info_;
   std::size_t at_ = 0;  ///< the frame that is being decoded
   std::size_t points_ = 0;
+  bool started_ = false;
   std::set<std::size_t> faults_;  ///< frames that were noted
   std::future<Decoded> ahead_;
 };

@@ -2,7 +2,14 @@
 // Copyright (c) 2026 the unseen authors
 #include "io/image.h"
 
+#include <png.h>
+
+#include <bit>
+#include <csetjmp>
+#include <cstring>
+#include <new>
 #include <opencv2/imgcodecs.hpp>
+#include <vector>
 
 #include "io/columns.h"
 #include "io/text.h"
@@ -42,6 +49,70 @@ Size jpeg_size(std::string_view bytes) {
   return {};
 }
 
+/// What libpng reads from and where it goes wrong to; it must not print.
+struct PngStream {
+  std::string_view bytes;
+  std::size_t at = 0;
+};
+
+void png_read(png_structp png, png_bytep to, png_size_t count) {
+  auto* stream = static_cast<PngStream*>(png_get_io_ptr(png));
+  if (count > stream->bytes.size() - stream->at) png_error(png, "truncated");
+  std::memcpy(to, stream->bytes.data() + stream->at, count);
+  stream->at += count;
+}
+
+[[noreturn]] void png_fail(png_structp png, png_const_charp) {
+  png_longjmp(png, 1);
+}
+void png_ignore(png_structp, png_const_charp) {}
+
+/// Nothing here has a destructor: libpng leaves by longjmp.
+bool decode_rows(png_structp png, png_infop info, PngStream* stream, cv::Mat* image,
+                 std::vector<png_bytep>* rows) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_read_fn(png, stream, png_read);
+  png_read_info(png, info);
+  png_set_expand(png);  // palettes, transparency, fewer than 8 bits
+  if constexpr (std::endian::native == std::endian::little) png_set_swap(png);
+  png_set_bgr(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  const int depth = png_get_bit_depth(png, info) == 16 ? CV_16U : CV_8U;
+  image->create(static_cast<int>(png_get_image_height(png, info)),
+                static_cast<int>(png_get_image_width(png, info)),
+                CV_MAKETYPE(depth, png_get_channels(png, info)));
+  rows->resize(static_cast<std::size_t>(image->rows));
+  for (int row = 0; row < image->rows; ++row) (*rows)[static_cast<std::size_t>(row)] = image->ptr(row);
+  png_read_image(png, rows->data());
+  png_read_end(png, nullptr);
+  return true;
+}
+
+cv::Mat decode_png(std::string_view bytes) {
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, png_fail, png_ignore);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+  if (!info) throw std::bad_alloc();
+  PngStream stream{bytes};
+  cv::Mat image;
+  std::vector<png_bytep> rows;
+  if (!decode_rows(png, info, &stream, &image, &rows)) image.release();
+  png_destroy_read_struct(&png, &info, nullptr);
+  return image;
+}
+
+cv::Mat decode_jpeg(std::string_view bytes) {
+  // The library would make up what is missing, and talk about it.
+  const std::string_view end("\xff\xd9", 2);
+  if (bytes.rfind(end) == std::string_view::npos) return {};
+  try {
+    const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+    return cv::imdecode(data, cv::IMREAD_COLOR);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 cv::Mat decode_image(std::string_view bytes, const std::string& name) {
@@ -55,13 +126,7 @@ cv::Mat decode_image(std::string_view bytes, const std::string& name) {
                      std::to_string(size.width) + " x " + std::to_string(size.height) + " pixels in " +
                          count_of(bytes.size(), "byte"),
                      "a size that fits the file");
-  cv::Mat image;
-  try {
-    const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    cv::imdecode(data, png ? cv::IMREAD_UNCHANGED : cv::IMREAD_COLOR, &image);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
+  const cv::Mat image = png ? decode_png(bytes) : decode_jpeg(bytes);
   if (image.empty()) throw InputError(name, "image", "broken or truncated data", "a PNG or JPEG image");
   return image;
 }

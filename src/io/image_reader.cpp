@@ -23,6 +23,7 @@ cv::Mat brightness(cv::Mat image) {
     cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
   } else {
     cv::extractChannel(image, grey, 0);
+    if (image.channels() == 2) cv::extractChannel(image, alpha, 1);
   }
   grey.convertTo(grey, CV_32F, 1.0 / white);
   if (alpha.empty()) return grey;

@@ -56,7 +56,7 @@ class LasSource final : public PointSource {
   void read_header() {
     constexpr std::size_t kShortest = 227;
     const std::string_view bytes = bytes_->view();
-    if (bytes.substr(0, 4) != "LASF") fail("signature", quoted(bytes.substr(0, 4)), "\"LASF\"");
+    if (bytes.substr(0, 4) != "LASF") fail("signature", shown(bytes.substr(0, 4)), "\"LASF\"");
     if (bytes.size() < kShortest) fail("header", count_of(bytes.size(), "byte"), "at least 227");
     const int major = at<std::uint8_t>(24), minor = at<std::uint8_t>(25);
     if (major != 1 || minor > 4)

@@ -45,7 +45,7 @@ class ObjReader {
     const char *p = rest.data(), *end = rest.data() + rest.size();
     Vec3 vertex;
     for (int i = 0; i < 3; ++i)
-      if (!read_number(p, end, vertex[i])) fail(here("vertex"), quoted(rest), "x y z");
+      if (!read_number(p, end, vertex[i])) fail(here("vertex"), shown(rest), "x y z");
     mesh_.vertices.push_back(vertex);
   }
 
@@ -64,7 +64,7 @@ class ObjReader {
       const auto count = static_cast<long long>(mesh_.vertices.size());
       if (error == std::errc() && index < 0) index += count + 1;  // counted from the last
       if (error != std::errc() || index < 1 || index > count)
-        fail(here("face"), quoted(trim(rest)), "corners from 1 to " + std::to_string(count));
+        fail(here("face"), shown(trim(rest)), "corners from 1 to " + std::to_string(count));
       corners_.push_back(static_cast<std::uint32_t>(index - 1));
       p = after;
       while (p != end && !is_blank(*p)) ++p;  // texture and normal

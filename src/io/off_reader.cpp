@@ -17,7 +17,7 @@ class OffReader {
     if (!next(line)) fail("header", "no line", "OFF");
     auto fields = words(line);
     const std::string_view magic = fields[0];
-    if (magic.size() < 3 || magic.substr(magic.size() - 3) != "OFF") fail("header", quoted(line), "OFF");
+    if (magic.size() < 3 || magic.substr(magic.size() - 3) != "OFF") fail("header", shown(line), "OFF");
     fields.erase(fields.begin());  // some writers put the counts beside it
     if (!fields.empty() && fields[0] == "BINARY")
       fail("header", "binary OFF", "text; convert it to PLY or OBJ");
@@ -27,7 +27,7 @@ class OffReader {
     }
     std::size_t vertices = 0, faces = 0;
     if (fields.size() < 2 || !to_count(fields[0], vertices) || !to_count(fields[1], faces))
-      fail("counts", quoted(line), "numbers of vertices and faces from 0");
+      fail("counts", shown(line), "numbers of vertices and faces from 0");
     check_room("vertices", vertices, 6);
     check_room("faces", faces, 4);
     read_vertices(vertices);
@@ -66,7 +66,7 @@ class OffReader {
       const char *p = line.data(), *end = line.data() + line.size();
       Vec3 vertex;
       for (int k = 0; k < 3; ++k)
-        if (!read_number(p, end, vertex[k])) fail(here("vertex"), quoted(line), "x y z");
+        if (!read_number(p, end, vertex[k])) fail(here("vertex"), shown(line), "x y z");
       mesh_.vertices.push_back(vertex);
     }
   }
@@ -78,11 +78,11 @@ class OffReader {
     const auto fields = words(line);
     std::size_t size = 0, corner = 0;
     if (!to_count(fields[0], size) || size + 1 > fields.size() || size > kMostCorners)
-      fail(here("face"), quoted(line), "its number of corners (at most 1000), then the corners");
+      fail(here("face"), shown(line), "its number of corners (at most 1000), then the corners");
     corners_.clear();
     for (std::size_t k = 1; k <= size; ++k) {
       if (!to_count(fields[k], corner) || corner >= mesh_.vertices.size())
-        fail(here("face"), quoted(fields[k]), "a vertex below " + std::to_string(mesh_.vertices.size()));
+        fail(here("face"), shown(fields[k]), "a vertex below " + std::to_string(mesh_.vertices.size()));
       corners_.push_back(static_cast<std::uint32_t>(corner));
     }
     append_polygon(corners_, mesh_);

@@ -21,7 +21,7 @@ class HeaderParser {
       const auto fields = words(line);
       if (fields[0].front() == '#') continue;
       const std::string key(fields[0]);
-      if (!is_key(key)) fail("header", quoted(line), "a header line such as FIELDS or DATA");
+      if (!is_key(key)) fail("header", shown(line), "a header line such as FIELDS or DATA");
       entries_[key] = {fields.begin() + 1, fields.end()};
       if (key != "DATA") continue;
       header_.offset = lines.offset();
@@ -51,7 +51,7 @@ class HeaderParser {
 
   std::size_t count_at(const std::string& key, std::string_view text) const {
     std::size_t count = 0;
-    if (!to_count(text, count)) fail(key, quoted(text), "a whole number from 0");
+    if (!to_count(text, count)) fail(key, shown(text), "a whole number from 0");
     return count;
   }
 
@@ -88,7 +88,7 @@ class HeaderParser {
       field.name = names->second[i];
       if (!scalar_of(types[i], count_at("SIZE", sizes[i]), field.type))
         fail("TYPE of field " + field.name,
-             std::string(types[i].substr(0, 8)) + " of " + quoted(sizes[i]) + " bytes",
+             std::string(types[i].substr(0, 8)) + " of " + shown(sizes[i]) + " bytes",
              "I or U of 1, 2, 4 or 8 bytes, or F of 4 or 8");
       if (has_counts) field.count = count_at("COUNT", entry("COUNT", count)[i]);
       if (field.count > 1000000)
@@ -118,7 +118,7 @@ class HeaderParser {
     const auto& texts = entry("VIEWPOINT", 7);
     Vec3 point = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
-      if (!to_number(texts[i], point[i])) fail("VIEWPOINT", quoted(texts[i]), "a number");
+      if (!to_number(texts[i], point[i])) fail("VIEWPOINT", shown(texts[i]), "a number");
     // The origin is what every writer puts there that does not know.
     if (point.allFinite() && point != Vec3::Zero()) header_.viewpoint = point;
   }
@@ -132,7 +132,7 @@ class HeaderParser {
     else if (kind == "binary_compressed")
       header_.data = PcdHeader::Data::compressed;
     else
-      fail("DATA", quoted(kind), "ascii, binary or binary_compressed");
+      fail("DATA", shown(kind), "ascii, binary or binary_compressed");
     if (header_.points == 0) fail("POINTS", "0", "points");
     if (header_.data == PcdHeader::Data::compressed) return;
     const bool ascii = header_.data == PcdHeader::Data::ascii;

@@ -126,13 +126,13 @@ class PcdSource final : public PointSource {
           if (!read_number(p, end, value)) {
             const std::string_view rest = trim({p, static_cast<std::size_t>(end - p)});
             fail("line " + std::to_string(lines_.number()) + ", field " + header_.fields[f].name,
-                 rest.empty() ? "the end of the line" : quoted(rest), "a number");
+                 rest.empty() ? "the end of the line" : shown(rest), "a number");
           }
           set_value(block, i, columns_[f], value);
         }
       const std::string_view rest = trim({p, static_cast<std::size_t>(end - p)});
       if (!rest.empty())
-        fail("line " + std::to_string(lines_.number()), quoted(rest),
+        fail("line " + std::to_string(lines_.number()), shown(rest),
              "the end of the line after " + count_of(header_.values, "value"));
     }
     bytes_->release_before(lines_.offset());

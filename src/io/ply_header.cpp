@@ -33,7 +33,7 @@ class HeaderParser {
   PlyHeader parse() {
     std::string_view line;
     Lines lines(bytes_);
-    if (!lines.next(line) || trim(line) != "ply") fail("first line", quoted(line), "\"ply\"");
+    if (!lines.next(line) || trim(line) != "ply") fail("first line", shown(line), "\"ply\"");
     while (lines.next(line)) {
       const auto fields = words(line);
       if (fields.empty() || fields[0] == "comment" || fields[0] == "obj_info") continue;
@@ -62,7 +62,7 @@ class HeaderParser {
     else if (fields[0] == "property")
       parse_property(fields, line);
     else
-      fail("header", quoted(line), "format, element, property, comment or end_header");
+      fail("header", shown(line), "format, element, property, comment or end_header");
   }
 
   void parse_format(const std::vector<std::string_view>& fields, std::string_view line) {
@@ -75,27 +75,27 @@ class HeaderParser {
     else if (format == "binary_big_endian")
       header_.swap = kLittle;
     else
-      fail("format", quoted(line), "ascii, binary_little_endian or binary_big_endian");
+      fail("format", shown(line), "ascii, binary_little_endian or binary_big_endian");
     has_format_ = true;
   }
 
   void parse_element(const std::vector<std::string_view>& fields, std::string_view line) {
     PlyElement element;
-    if (fields.size() != 3) fail("element", quoted(line), "\"element NAME COUNT\"");
+    if (fields.size() != 3) fail("element", shown(line), "\"element NAME COUNT\"");
     element.name = fields[1];
     if (!to_count(fields[2], element.count))
-      fail("element " + element.name, quoted(fields[2]), "how many there are, a whole number from 0");
+      fail("element " + element.name, shown(fields[2]), "how many there are, a whole number from 0");
     header_.elements.push_back(std::move(element));
   }
 
   void parse_property(const std::vector<std::string_view>& fields, std::string_view line) {
-    if (header_.elements.empty()) fail("property", quoted(line), "an element before its properties");
+    if (header_.elements.empty()) fail("property", shown(line), "an element before its properties");
     PlyProperty property;
     const bool list = fields.size() == 5 && fields[1] == "list";
     const bool plain = fields.size() == 3 && scalar_of(fields[1], property.type);
     if (!plain && !(list && scalar_of(fields[2], property.count_type) && is_integer(property.count_type) &&
                     scalar_of(fields[3], property.type)))
-      fail("property", quoted(line), "\"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
+      fail("property", shown(line), "\"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
     property.is_list = list;
     property.name = fields.back();
     header_.elements.back().properties.push_back(std::move(property));

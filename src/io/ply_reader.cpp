@@ -134,13 +134,17 @@ class PlySource final : public PointSource {
       const char *p = line.data(), *end = line.data() + line.size();
       for (std::size_t c = 0; c < columns_.size(); ++c) {
         double value = read_value(p, end, c);
+        if (vertex_->properties[c].is_list && !(value >= 0.0))
+          fail("line " + std::to_string(lines_.number()) + ", property " + vertex_->properties[c].name,
+               std::to_string(value), "the length of a list");
         if (vertex_->properties[c].is_list)
           for (double left = value; left >= 1.0; left -= 1.0) read_value(p, end, c);
         else
           set_value(block, i, columns_[c], value);
       }
-      if (!trim({p, static_cast<std::size_t>(end - p)}).empty())
-        fail("line " + std::to_string(lines_.number()), quoted({p, static_cast<std::size_t>(end - p)}),
+      const std::string_view rest = trim({p, static_cast<std::size_t>(end - p)});
+      if (!rest.empty())
+        fail("line " + std::to_string(lines_.number()), shown(rest),
              "the end of the line after " + count_of(columns_.size(), "value"));
     }
   }
@@ -150,7 +154,7 @@ class PlySource final : public PointSource {
     if (!read_number(p, end, value)) {
       const std::string_view rest = trim({p, static_cast<std::size_t>(end - p)});
       fail("line " + std::to_string(lines_.number()) + ", property " + vertex_->properties[c].name,
-           rest.empty() ? "the end of the line" : quoted(rest), "a number");
+           rest.empty() ? "the end of the line" : shown(rest), "a number");
     }
     return value;
   }

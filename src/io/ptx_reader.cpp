@@ -45,7 +45,7 @@ class PtxSource final : public PointSource {
 
  private:
   [[noreturn]] void fail(const std::string& field, std::string_view line, const std::string& expected) const {
-    throw InputError(info_.name, "line " + std::to_string(lines_.number()) + ", " + field, quoted(line),
+    throw InputError(info_.name, "line " + std::to_string(lines_.number()) + ", " + field, shown(line),
                      expected);
   }
   [[noreturn]] void fail_truncated() const {

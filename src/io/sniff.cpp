@@ -128,12 +128,12 @@ Format decide_format(std::string_view bytes, const std::string& name, std::strin
   if (bytes.empty()) throw InputError(name, "content", "an empty file", "points");
   const Format content = sniff(bytes), ending = format_of_extension(extension);
   const bool vague = content == Format::text || content == Format::unknown;
-  if (content == ending) return content;
   if (ending == Format::unknown) {
     if (content != Format::unknown) return content;
     throw InputError(name, "content", name_of(content),
                      "PLY, PCD, LAS, PTX, rows of numbers, OBJ, OFF, STL, PNG or JPEG");
   }
+  if (content == ending) return content;
   // A reader tells best what is wrong with a file of its own kind; scans and meshes may be called .txt.
   if (vague) return ending;
   if (ending == Format::text && (content == Format::ptx || content == Format::obj || content == Format::off))

@@ -57,7 +57,7 @@ TriangleMesh read_text(const Input& input) {
       if (found == 3) fail("a fourth vertex in a facet", "3");
       for (std::size_t k = 0; k < 3; ++k)
         if (fields.size() != 4 || !to_number(fields[k + 1], corners[found][static_cast<Eigen::Index>(k)]))
-          fail(quoted(line), "\"vertex x y z\"");
+          fail(shown(line), "\"vertex x y z\"");
       ++found;
     }
   }

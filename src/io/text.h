@@ -39,7 +39,7 @@ std::string_view trim(std::string_view text);
 std::vector<std::string_view> words(std::string_view line);
 std::string lower(std::string_view text);
 /// "text" in quotes, cut to a length that suits a message.
-std::string quoted(std::string_view text);
+std::string shown(std::string_view text);
 /// "1 point", "3 points".
 std::string count_of(std::size_t count, const char* singular);
 

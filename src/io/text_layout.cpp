@@ -2,6 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include "io/text_layout.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,7 +66,7 @@ class Guess {
       if (numbers && !layout_.promised) {
         std::size_t count = 0;
         if (!to_count(parts[0], count))
-          fail("line " + std::to_string(lines.number()), quoted(line), "a count of points, or a point");
+          fail("line " + std::to_string(lines.number()), shown(line), "a count of points, or a point");
         if (count == 0) fail("count of points", "0", "points");
         if (count > (bytes.size() - lines.offset() + 1) / 4)
           fail("count of points", count_of(count_filled_lines(bytes.substr(lines.offset())), "line"),
@@ -72,7 +75,7 @@ class Guess {
         continue;
       }
       if (numbers || had_header_ || !looks_like_text(line))
-        fail("line " + std::to_string(lines.number()), quoted(line), "the numbers of a point");
+        fail("line " + std::to_string(lines.number()), shown(line), "the numbers of a point");
       had_header_ = true;
       take_names(line);
     }
@@ -209,11 +212,11 @@ class Guess {
     if (!has_role(layout_.columns, Role::x) || !has_role(layout_.columns, Role::y))
       fail("columns", "no x and y", "coordinates");
     layout_.two_dimensional = !has_role(layout_.columns, Role::z);
-    std::string list;
+    std::vector<const char*> list;
     for (const Column& column : layout_.columns)
-      list += (list.empty() ? "" : " ") + std::string(kNames[static_cast<std::size_t>(column.role)]);
-    layout_.notes.push_back("columns read as " + list +
-                            (names_.size() == width_ ? " (by their names)" : " (guessed)"));
+      list.push_back(kNames[static_cast<std::size_t>(column.role)]);
+    layout_.notes.push_back(fmt::format("columns read as {} ({})", fmt::join(list, " "),
+                                        names_.size() == width_ ? "by their names" : "guessed"));
     if (layout_.two_dimensional) layout_.notes.push_back("no z: read as a drawing");
     if (layout_.decimal_comma) layout_.notes.push_back("commas read as decimal points");
     for (const auto& [role, name] : {std::pair{Role::x, "x"}, {Role::y, "y"}, {Role::z, "z"}})

@@ -82,7 +82,7 @@ class TextSource final : public PointSource {
   void start_next_scan() {
     std::size_t count = 0;
     if (!to_count(line_, count))
-      fail(quoted(line_), "the end of the file after " + count_of(promised_, "point"), lines_);
+      fail(shown(line_), "the end of the file after " + count_of(promised_, "point"), lines_);
     if (count > bytes_->view().size())
       fail(std::to_string(count) + " points", "no more than the file can hold", lines_);
     promised_ += count;
@@ -137,12 +137,12 @@ class TextSource final : public PointSource {
     const char *p = line.data(), *end = line.data() + line.size();
     double n[3];
     for (double& value : n)
-      if (!read_number(p, end, value)) fail(quoted(line), "a normal of 3 numbers", normal_lines_);
+      if (!read_number(p, end, value)) fail(shown(line), "a normal of 3 numbers", normal_lines_);
     block.normals[i] = Vec3(n[0], n[1], n[2]).cast<float>();
   }
 
   [[noreturn]] void fail_row() const {
-    fail(quoted(line_), "a row of " + count_of(layout_.columns.size(), "number") + " like the first", lines_);
+    fail(shown(line_), "a row of " + count_of(layout_.columns.size(), "number") + " like the first", lines_);
   }
 
   std::shared_ptr<FileBytes> bytes_;

@@ -29,6 +29,11 @@ std::optional<Vec3> viewpoint_of(const Options& options, const SourceInfo& info)
   return Vec3(options.viewpoint[0], options.viewpoint[1], options.viewpoint[2]);
 }
 
+void check_distinct(const Survey& survey, const std::string& name) {
+  if (survey.low == survey.high)
+    throw InputError(name, "points", "1 distinct", "at least three that are not in a line");
+}
+
 /// A line of points lies in infinitely many planes: there is no right answer.
 void check_not_collinear(const VoxelGrid& grid, const Space& space, const Survey& survey, const std::string& name) {
   Moments all;
@@ -77,6 +82,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   {
     Stage stage(context, summary, "survey");
     seen = survey(source, context);
+    check_distinct(seen, info.name);
     space = space_of(seen, info.two_dimensional);
     result.scale = choose_scale(seen, space, options);
     use_normals = normals_usable(seen, space);

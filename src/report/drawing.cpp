@@ -98,6 +98,12 @@ std::string dots(const Canvas& canvas, const PointSample& points, std::size_t li
   return body;
 }
 
+/// What hides a room from above: ceilings, if there is a floor below them to be seen.
+bool is_lid(const planes::ArrangedPlane& plane, const planes::Arrangement& a) {
+  return plane.tag == "ceiling" && std::any_of(a.planes.begin(), a.planes.end(),
+                                               [](const auto& other) { return other.tag == "floor"; });
+}
+
 }  // namespace
 
 View top_view() {
@@ -117,7 +123,7 @@ std::string svg_of_planes(const planes::Arrangement& a, const View& view, const 
   double total_area = 0;
   for (std::size_t p = 0; p < a.planes.size(); ++p) {
     const planes::ArrangedPlane& plane = a.planes[p];
-    if (plane.polygon.empty() || plane.polygon[0].empty() || plane.tag == "ceiling") continue;
+    if (plane.polygon.empty() || plane.polygon[0].empty() || is_lid(plane, a)) continue;
     for (const Vec3& v : plane.polygon[0]) canvas.cover(v);
     depth[p] = canvas.depth(middle_of(plane.polygon[0]));
     total_area += plane.area;

@@ -19,8 +19,8 @@ View top_view();
 /// From the front right, 30° above the horizon.
 View oblique_view();
 
-/// Inline SVG of the plane polygons, far ones first, coloured by frame and shaded by slope; ceilings are left
-/// out so that one sees inside. The largest planes carry their number.
+/// Inline SVG of the plane polygons, far ones first, coloured by frame and shaded by slope; ceilings
+/// above a floor are left out so that one sees inside. The largest planes carry their number.
 std::string svg_of_planes(const planes::Arrangement& arrangement, const View& view, const std::string& label);
 
 /// Inline SVG of at most `limit` points, coloured by plane.

@@ -58,17 +58,19 @@ Json summary_of(const Summary& summary) {
           {"warnings", summary.warnings}};
 }
 
-Json result_header(const std::string& capability, const InputRecord& input, const OptionTable& options,
-                   const Summary& summary) {
+Json made_by(const std::string& capability, const OptionTable& options) {
   Json values = Json::object();
   for (const Option& option : options.all()) values[option.name] = value_of(option);
-  return {{"unseen", kVersion},
-          {"schema", 1},
-          {"capability", capability},
-          {"input",
-           {{"path", input.path}, {"sha256", input.sha256.empty() ? Json(nullptr) : Json(input.sha256)}}},
-          {"options", values},
-          {"summary", summary_of(summary)}};
+  return {{"unseen", kVersion}, {"schema", 1}, {"capability", capability}, {"options", values}};
+}
+
+Json result_header(const std::string& capability, const InputRecord& input, const OptionTable& options,
+                   const Summary& summary) {
+  Json json = made_by(capability, options);
+  json["input"] = {{"path", input.path},
+                   {"sha256", input.sha256.empty() ? Json(nullptr) : Json(input.sha256)}};
+  json["summary"] = summary_of(summary);
+  return json;
 }
 
 std::string text_of(const Json& json) {

@@ -22,7 +22,10 @@ Json degrees_of(double radians);
 
 Json vector_of(const Vec3& v);
 
-/// What all capabilities begin with: unseen, schema, capability, input, options, summary.
+/// What every file begins with: unseen, schema, capability, options.
+Json made_by(const std::string& capability, const OptionTable& options);
+
+/// What all results begin with: unseen, schema, capability, input, options, summary.
 Json result_header(const std::string& capability, const InputRecord& input, const OptionTable& options,
                    const Summary& summary);
 

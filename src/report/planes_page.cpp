@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "report/drawing.h"
@@ -19,6 +20,11 @@ constexpr std::size_t kRows = 1000;   ///< planes listed; result.json has all
 
 using Rows = std::vector<std::vector<std::string>>;
 
+/// Four decimals, and no "-0.0000".
+std::string fixed(double value) {
+  return fmt::format("{:.4f}", std::round(value * 1e4) / 1e4 + 0.0);
+}
+
 std::string swatch(int frame) {
   return fmt::format("<span class=\"swatch\" style=\"background:{}\"></span>{}", hex(frame_color(frame)),
                      frame);
@@ -29,9 +35,10 @@ std::string figures(const planes::Arrangement& a) {
   const auto figure = [&](const std::string& name, const std::string& value) {
     text += "<div><b>" + value + "</b>" + escape(name) + "</div>\n";
   };
-  for (const auto& [name, count] : a.summary.counts)
-    if (name == "points" || name == "assigned")
-      figure(name == "points" ? name : "points on a plane", std::to_string(count));
+  for (const auto& [wanted, label] :
+       {std::pair{"points", "points"}, std::pair{"assigned", "points on a plane"}})
+    for (const auto& [name, count] : a.summary.counts)
+      if (name == wanted) figure(label, std::to_string(count));
   figure(a.two_dimensional ? "lines" : "planes", std::to_string(a.planes.size()));
   figure("orientation frames", std::to_string(a.frames.size()));
   figure("relations of directions", std::to_string(a.relations.size()));
@@ -52,7 +59,7 @@ std::string pictures(const planes::Arrangement& a, const PointSample& points) {
     return text + "</div>\n";
   }
   text += figure(svg_of_planes(a, oblique_view(), "Oblique view"),
-                 "Planes, coloured by orientation frame, without ceilings");
+                 "Planes, coloured by orientation frame; ceilings above a floor are left out");
   text += figure(svg_of_planes(a, top_view(), "Top view"), "The same from above");
   if (!points.positions.empty())
     text += figure(svg_of_points(a, points, oblique_view(), kDots, "Points"),
@@ -66,9 +73,8 @@ std::string plane_table(const planes::Arrangement& a) {
     const planes::ArrangedPlane& plane = a.planes[p];
     const Vec3& n = plane.plane.normal;
     rows.push_back({std::to_string(p), escape(plane.tag), swatch(plane.frame),
-                    std::to_string(plane.direction),
-                    fmt::format("{:.4f}, {:.4f}, {:.4f}", n.x(), n.y(), n.z()),
-                    fmt::format("{:.4f}", plane.plane.offset), fmt::format("{:.4g}", plane.area),
+                    std::to_string(plane.direction), fixed(n.x()) + ", " + fixed(n.y()) + ", " + fixed(n.z()),
+                    fixed(plane.plane.offset), fmt::format("{:.4g}", plane.area),
                     std::to_string(plane.points), fmt::format("{:.3g}", plane.rms)});
   }
   std::string text =

@@ -3,6 +3,7 @@
 #include "report/triangulate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -103,12 +104,59 @@ Chain join_holes(const Points& points, Chain outline, std::vector<Chain> holes) 
   return outline;
 }
 
+/// Points in square cells, so that only those near a triangle need be looked at.
+class Grid {
+ public:
+  Grid(const Points& points, const Chain& chain) {
+    for (const Index i : chain) box_.extend(points[i]);
+    side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(chain.size()))), 1, 1024);
+    cells_.resize(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_));
+  }
+  void add(std::size_t item, const Vec2& p) { cells_[cell(column(p, 0), column(p, 1))].push_back(item); }
+  /// True if `test` says so for an item in a cell that the triangle's bounding box meets.
+  template <class Test>
+  bool any(const Vec2& a, const Vec2& b, const Vec2& c, Test test) const {
+    const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+    for (int y = column(low, 1); y <= column(high, 1); ++y)
+      for (int x = column(low, 0); x <= column(high, 0); ++x)
+        for (const std::size_t item : cells_[cell(x, y)])
+          if (test(item)) return true;
+    return false;
+  }
+
+ private:
+  int column(const Vec2& p, int axis) const {
+    const double size = box_.sizes()[axis];
+    return size > 0 ? std::min(static_cast<int>((p[axis] - box_.min()[axis]) / size * side_), side_ - 1) : 0;
+  }
+  std::size_t cell(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
+  }
+
+  Eigen::AlignedBox2d box_;
+  int side_ = 1;
+  std::vector<std::vector<std::size_t>> cells_;
+};
+
 /// The chain as a ring of links, from which ears are cut.
 struct Ears {
   const Points& points;
   const Chain& chain;
   std::vector<std::size_t> prev, next;
-  std::vector<std::size_t> reflex;  ///< positions that may lie in an ear: never convex ones
+  std::vector<bool> reflex;  ///< positions that may lie in an ear: neither convex nor cut off
+  Grid grid;                 ///< holds what was reflex at the start
+
+  Ears(const Points& points_, const Chain& chain_) : points(points_), chain(chain_), grid(points_, chain_) {
+    const std::size_t n = chain.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      prev.push_back((i + n - 1) % n);
+      next.push_back((i + 1) % n);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      reflex.push_back(!(corner(i) > 0));
+      if (reflex[i]) grid.add(i, at(i));
+    }
+  }
 
   const Vec2& at(std::size_t i) const { return points[chain[i]]; }
   double corner(std::size_t i) const { return turn(at(prev[i]), at(i), at(next[i])); }
@@ -117,33 +165,27 @@ struct Ears {
     const std::size_t a = prev[i], c = next[i];
     const Vec2 &pa = at(a), &pb = at(i), &pc = at(c);
     if (!(turn(pa, pb, pc) > 0)) return false;
-    if (!leaves_inside(at(prev[a]), pa, pb, pc)) return false;
-    if (!leaves_inside(pb, pc, at(next[c]), pa)) return false;
-    for (const std::size_t r : reflex) {
+    if (!leaves_inside(at(prev[a]), pa, pb, pc) || !leaves_inside(pb, pc, at(next[c]), pa)) return false;
+    return !grid.any(pa, pb, pc, [&](std::size_t r) {
       const Vec2& p = at(r);
-      if (p == pa || p == pb || p == pc) continue;
-      if (turn(pa, pb, p) >= 0 && turn(pb, pc, p) >= 0 && turn(pc, pa, p) >= 0) return false;
-    }
-    return true;
+      if (!reflex[r] || p == pa || p == pb || p == pc) return false;
+      return turn(pa, pb, p) >= 0 && turn(pb, pc, p) >= 0 && turn(pc, pa, p) >= 0;
+    });
   }
 
   void cut(std::size_t i) {
     next[prev[i]] = next[i];
     prev[next[i]] = prev[i];
-    std::erase_if(reflex,
-                  [&](std::size_t r) { return r == i || ((r == prev[i] || r == next[i]) && corner(r) > 0); });
+    reflex[i] = false;
+    for (const std::size_t k : {prev[i], next[i]})
+      if (corner(k) > 0) reflex[k] = false;
   }
 };
 
 std::vector<Triangle> cut_ears(const Points& points, const Chain& chain) {
-  const std::size_t n = chain.size();
   std::vector<Triangle> triangles;
-  Ears ears{points, chain, std::vector<std::size_t>(n), std::vector<std::size_t>(n), {}};
-  for (std::size_t i = 0; i < n; ++i) ears.prev[i] = (i + n - 1) % n, ears.next[i] = (i + 1) % n;
-  for (std::size_t i = 0; i < n; ++i)
-    if (!(ears.corner(i) > 0)) ears.reflex.push_back(i);
-
-  std::size_t at = 0, left = n, since_cut = 0, flattest = 0;
+  Ears ears(points, chain);
+  std::size_t at = 0, left = chain.size(), since_cut = 0, flattest = 0;
   double flattest_corner = std::numeric_limits<double>::infinity();
   while (left >= 3) {
     const bool stuck = since_cut > left;  // only collinear or crossing rests: give up the flattest corner

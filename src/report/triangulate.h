@@ -18,7 +18,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// repeats its first point. Indices count through the rings one after the other; triangles are
 /// counter-clockwise. A ring that touches or crosses itself gives some overlap or a gap, never an endless
 /// run. Holes are joined to the outline by a bridge each, then ears are cut off (Eberly, "Triangulation by
-/// ear clipping"). O(n·r) for n vertices of which r are reflex.
+/// ear clipping"), near ones compared through a grid.
 std::vector<Triangle> triangulate(const std::vector<Ring>& rings);
 
 /// The same for a polygon in space; triangles are counter-clockwise seen from the tip of `normal`.

@@ -50,8 +50,9 @@ def glb_json(path):
 
 
 def contents(folder):
-    """Name and bytes of every file below a folder."""
-    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
+    """Name and bytes of every file below a folder, but for the hidden list of what is ours."""
+    return {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*"))
+            if p.is_file() and p.name != ".unseen-files"}
 
 
 class CliTest(unittest.TestCase):

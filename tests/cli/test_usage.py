@@ -70,14 +70,14 @@ class Config(CliTest):
         (self.folder / "my.toml").write_text(text)
 
     def options(self, *arguments):
-        run = self.unseen("planes", self.room_file(count=2000), "-o", "out", *arguments)
+        run = self.unseen("planes", self.room_file(), "-o", "out", *arguments)
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads((self.folder / "out/result.json").read_text())["options"]
 
     def test_file_sets_and_command_line_wins(self):
-        self.write("scale = 0.07\nangles = [60, 90]\nsolver = 'exact'\n")
-        options = self.options("--config", "my.toml", "--scale", "0.06")
-        self.assertEqual((options["scale"], options["angles"], options["solver"]), (0.06, [60, 90], "exact"))
+        self.write("scale = 0.2\nangles = [60, 90]\nsolver = 'exact'\n")
+        options = self.options("--config", "my.toml", "--scale", "0.15")
+        self.assertEqual((options["scale"], options["angles"], options["solver"]), (0.15, [60, 90], "exact"))
 
     def test_dump_config_round_trip(self):
         given = ("--scale", "0.061", "--angles", "45,60", "--adaptive-scale", "--viewpoint", "-1,2.5,3", "--seed", "9")

@@ -70,5 +70,13 @@ TEST(Options, UnknownNameListsTheKnownOnes) {
   }
 }
 
+TEST(Options, RangesReadWell) {
+  constexpr double kTiny = std::numeric_limits<double>::min();
+  double d = 1;
+  EXPECT_EQ((Option{"d", &d, "", "", kTiny, 2, {}}.range()), "above 0, at most 2");
+  EXPECT_EQ((Option{"d", &d, "", "", kTiny, std::numeric_limits<double>::infinity(), {}}.range()), "above 0");
+  EXPECT_EQ((Option{"d", &d, "", "", 0, 1, {}}.range()), "0…1");
+}
+
 }  // namespace
 }  // namespace unseen

@@ -6,11 +6,15 @@
 #include <tiny_gltf.h>
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <sstream>
 
 #include "report/palette.h"
 #include "report/sample.h"
+#include "unseen/core/error.h"
+#include "unseen/report/points_file.h"
 
 namespace unseen::report {
 namespace {
@@ -144,6 +148,44 @@ TEST(PointSample, KeepsAnEvenShareInOrder) {
               16.0 * static_cast<double>(i) + 1);  // one more: the sixth is not finite
     EXPECT_EQ(sample.plane_of_point[i], static_cast<int>(sample.positions[i].x()) % 7 - 1);
   }
+}
+
+TEST(PointsFile, HoldsEveryPointInOrder) {
+  const auto path = std::filesystem::temp_directory_path() / "unseen_points_file_test.ply";
+  constexpr int kPoints = 100000;
+  {
+    PointsFile file(path);
+    for (int first = 0; first < kPoints; first += 40000) {
+      std::vector<Vec3> block;
+      std::vector<int> planes;
+      for (int i = first; i < std::min(first + 40000, kPoints); ++i) {
+        block.emplace_back(i + 0.1, i % 3 ? 1e7 / 3 : std::nan(""), -i);
+        planes.push_back(i % 4 - 1);
+      }
+      file.add(block, planes);
+    }
+    file.finish({0, 7, 5});
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "ply");
+  while (line != "end_header" && std::getline(file, line))
+    if (line.rfind("element", 0) == 0) {
+      EXPECT_EQ(line, "element vertex 100000");
+    }
+  for (int i = 0; i < kPoints; ++i) {
+    double xyz[3];
+    std::int32_t ids[2];
+    file.read(reinterpret_cast<char*>(xyz), sizeof(xyz)).read(reinterpret_cast<char*>(ids), sizeof(ids));
+    ASSERT_EQ(xyz[0], i + 0.1);
+    ASSERT_EQ(std::isnan(xyz[1]), i % 3 == 0);
+    ASSERT_EQ(ids[0], i % 4 - 1);
+    ASSERT_EQ(ids[1], (std::array<int, 4>{-1, 0, 7, 5})[static_cast<std::size_t>(i % 4)]);
+  }
+  EXPECT_TRUE(file && file.peek() == EOF);
+  std::filesystem::remove(path);
+  EXPECT_THROW(PointsFile("/dev/null/points.ply"), InputError);
 }
 
 TEST(Palette, FramesStayApart) {

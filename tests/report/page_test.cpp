@@ -57,12 +57,21 @@ TEST(Page, StandsAloneAndShowsEveryPlane) {
   EXPECT_NE(page.find("<title>Planes of room.ply</title>"), std::string::npos);
   EXPECT_EQ(occurrences(page, "<svg "), 3u);
   EXPECT_EQ(occurrences(page, "class=\"plane\""), 10u);
+  EXPECT_EQ(page.find("-0.0000"), std::string::npos);
   EXPECT_NE(page.find("normals unusable: &lt;re-estimated&gt;"), std::string::npos);
   for (const char* tag : {"table", "div", "figure", "svg", "pre", "p", "h2", "tr", "span"})
     EXPECT_EQ(
         occurrences(page, std::string("<") + tag + ">") + occurrences(page, std::string("<") + tag + " "),
         occurrences(page, std::string("</") + tag + ">"))
         << tag;
+}
+
+TEST(Page, CeilingsGoOnlyWhereTheyHideAFloor) {
+  planes::Arrangement a = sample_room();
+  a.planes[3].tag = "ceiling";
+  EXPECT_EQ(occurrences(page_of(a, "room.ply"), "class=\"plane\""), 8u);
+  a.planes[0].tag = "";
+  EXPECT_EQ(occurrences(page_of(a, "roof.ply"), "class=\"plane\""), 10u);
 }
 
 TEST(Page, DrawingsAndNothingAreDrawn) {

@@ -26,7 +26,7 @@ struct Option {
   std::string flag() const;
   /// The current value as text, as a config file would hold it ("" for an unset optional).
   std::string text() const;
-  /// "0…1", "one of local, exact", … or empty.
+  /// "0…1", "above 0" (if min is the smallest positive number), "one of local, exact", … or empty.
   std::string range() const;
 };
 

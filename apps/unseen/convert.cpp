@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.h"
+#include "flags.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "unseen/io/config.h"
+#include "unseen/io/describe.h"
+#include "unseen/io/points.h"
+#include "unseen/io/write_points.h"
+#include "unseen/report/planes_result.h"
+
+namespace unseen::cli {
+namespace {
+
+struct Arguments {
+  std::string in, out;
+  CommonFlags common;
+  GivenOptions given;
+  io::ReadOptions read;
+};
+
+int run(Arguments& args) {
+  OptionTable table = io::describe(args.read);
+  resolve(table, args.common.config_file, "convert", args.given);
+  if (args.common.dump_config) {
+    fmt::print("{}", io::dump_config(table, "convert"));
+    return kSolved;
+  }
+  require(args.in, "IN");
+  require(args.out, "OUT");
+
+  Interrupt interrupt;
+  Progress progress(args.common.quiet);
+  Context context;
+  progress.attach(context);
+  context.stop = interrupt.token();
+  context.threads = args.common.threads;
+
+  const auto source = io::open_points(args.in, args.read);
+  Summary summary;
+  {
+    const Stage stage(context, summary, "convert");
+    io::write_points(args.out, *source, context);
+  }
+  for (const std::string& note : source->info().notes) context.warn(note);
+  summary.warnings = context.take_warnings();
+  progress.warn(summary.warnings);
+  if (args.common.json) {
+    fmt::print("{}", report::summary_json(summary));
+  } else if (!args.common.quiet) {
+    fmt::print("written: {}\n", args.out);
+  }
+  return kSolved;
+}
+
+}  // namespace
+
+Command add_convert(CLI::App& app) {
+  auto args = std::make_shared<Arguments>();
+  CLI::App* sub =
+      app.add_subcommand("convert", "Turn any cloud that can be read into ply, pcd, xyz, csv or las");
+  sub->add_option("IN", args->in, "a point cloud, a mesh, an image, or a folder of depth frames or tiles");
+  sub->add_option("OUT", args->out, "the file to write; its ending says the format");
+  add_flags(*sub, io::describe(args->read), args->given);
+  add_flags(*sub, args->common);
+  sub->footer("Example:\n  unseen convert scan.las scan.ply");
+  return {sub, [args] { return run(*args); }};
+}
+
+}  // namespace unseen::cli

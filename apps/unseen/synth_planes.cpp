@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.h"
+#include "flags.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "unseen/io/config.h"
+#include "unseen/io/output_folder.h"
+#include "unseen/io/write_points.h"
+#include "unseen/planes/synth.h"
+#include "unseen/report/planes_result.h"
+#include "unseen/report/synth_truth.h"
+#include "write_text.h"
+
+namespace unseen::cli {
+namespace {
+
+struct Arguments {
+  std::string out;
+  CommonFlags common;
+  GivenOptions given;
+  planes::SynthOptions options;
+};
+
+int run(Arguments& args) {
+  OptionTable table = planes::describe(args.options);
+  resolve(table, args.common.config_file, "synth", args.given);
+  if (args.common.dump_config) {
+    fmt::print("{}", io::dump_config(table, "synth"));
+    return kSolved;
+  }
+  require(args.out, "-o DIR");
+
+  Interrupt interrupt;
+  Progress progress(args.common.quiet);
+  Context context;
+  progress.attach(context);
+  context.stop = interrupt.token();
+  context.threads = args.common.threads;
+
+  io::OutputFolder out(args.out);
+  Summary summary;
+  planes::SynthScene scene;
+  {
+    const Stage stage(context, summary, "scan");
+    scene = planes::make_scene(args.options, context);
+  }
+  {
+    const Stage stage(context, summary, "write");
+    CloudSource source(scene.cloud);
+    io::write_points(out.file("cloud.ply"), source, context);
+    write_text(out.file("truth.obj"), report::labelled_obj(scene.truth));
+    write_text(out.file("truth.json"), report::synth_truth_json(scene, table));
+  }
+  summary.counts = {
+      {"points", scene.cloud.size()}, {"planes", scene.planes.size()}, {"frames", scene.axes.size()}};
+  summary.warnings = context.take_warnings();
+  context.check();
+  progress.warn(summary.warnings);
+  progress.warn(out.commit());
+  if (args.common.json) {
+    fmt::print("{}", report::summary_json(summary));
+  } else if (!args.common.quiet) {
+    fmt::print("{} points on {} planes in {} orientation frames\nwritten: {}\n", scene.cloud.size(),
+               scene.planes.size(), scene.axes.size(), args.out);
+  }
+  return kSolved;
+}
+
+}  // namespace
+
+Command add_synth_planes(CLI::App& synth) {
+  auto args = std::make_shared<Arguments>();
+  CLI::App* sub =
+      synth.add_subcommand("planes", "Make a scanned scene with its true planes, labels and mesh");
+  sub->add_option("-o", args->out, "the folder for cloud.ply, truth.obj and truth.json")->type_name("DIR");
+  add_flags(*sub, planes::describe(args->options), args->given);
+  add_flags(*sub, args->common);
+  sub->footer(
+      "Examples:\n  unseen synth planes -o room --seed 7\n  unseen synth planes -o stairs --scene stairs "
+      "--noise 0.01");
+  return {sub, [args] { return run(*args); }};
+}
+
+}  // namespace unseen::cli

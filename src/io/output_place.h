@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <filesystem>
+
+namespace unseen::io {
+
+/// The absolute path behind symbolic links, without a slash at its end; the last parts need not exist.
+std::filesystem::path resolved(const std::filesystem::path& path);
+/// A hidden name beside `target` that nothing else uses.
+std::filesystem::path temporary_beside(const std::filesystem::path& target);
+
+}  // namespace unseen::io

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <opencv2/imgcodecs.hpp>
+
+#include "io/samples.h"
+
+namespace unseen::io {
+namespace {
+
+void write_frame(const ScratchFolder& folder, const std::string& name, const std::string& pose,
+                 const std::string& png) {
+  write_file(folder / (name + ".pose.txt"), pose);
+  write_file(folder / (name + ".depth.png"), png);
+}
+
+const char* const kIntrinsics = "2 0 1\n0 2 0.5\n0 0 1\n";
+const char* const kPose = "0 -1 0 10\n1 0 0 20\n0 0 1 30\n0 0 0 1\n";
+
+TEST(Depth, FramesBecomePointsInRowOrder) {
+  const ScratchFolder folder;
+  write_file(folder / "camera-intrinsics.txt", kIntrinsics);
+  write_frame(folder, "frame-000002", kPose, png16(3, 2, 1000));
+  write_frame(folder, "frame-000001", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", png16(3, 2, 2000));
+  const auto source = open_points(folder.path);
+  const PointCloud cloud = read_all(*source);
+  ASSERT_EQ(cloud.size(), 12u);
+  EXPECT_EQ(cloud.positions[0], Vec3(-1, -0.5, 2));
+  EXPECT_EQ(cloud.positions[2], Vec3(1, -0.5, 2));
+  EXPECT_EQ(cloud.positions[3], Vec3(-1, 0.5, 2));
+  EXPECT_TRUE(cloud.positions[6].isApprox(Vec3(10.25, 19.5, 31), 1e-12));
+  expect_same(read_all(*source), cloud);
+  PointCloud block;
+  while (source->next(block)) {
+  }
+  EXPECT_FALSE(source->next(block));
+  ReadOptions options;
+  options.depth_step = 2;
+  options.frame_step = 2;
+  EXPECT_EQ(read_all(*open_points(folder.path, options)).size(), 2u);
+  options = {};
+  options.depth_range = {0.5, 1.5};
+  EXPECT_EQ(read_all(*open_points(folder.path, options)).size(), 6u);
+  options.depth_range = {5, 6};
+  expect_error([&] { read_all(*open_points(folder.path, options)); }, {folder.path.string(), "frames"});
+}
+
+TEST(Depth, BadFramesAreNotesAndNoisyPosesAreFine) {
+  const ScratchFolder folder;
+  write_file(folder / "camera-intrinsics.txt", kIntrinsics);
+  write_frame(folder, "frame-1", "0.9999 0 0 0\n0 1 0.0001 0\n0 0 1 0\n0 0 0 1\n", png16(2, 2, 1000));
+  write_frame(folder, "frame-2", "2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", png16(2, 2, 1000));
+  write_frame(folder, "frame-3", "nan 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", png16(2, 2, 1000));
+  write_frame(folder, "frame-4", kPose, "not an image");
+  write_frame(folder, "frame-5", kPose, png8({"##"}));
+  write_frame(folder, "frame-6", kPose, png16(200, 200, 1000).substr(0, 90));
+  write_file(folder / "frame-7.depth.png", png16(2, 2, 1000));
+  const auto source = open_points(folder.path);
+  EXPECT_EQ(source->info().notes.size(), 3u);  // 2, 3 and 7
+  EXPECT_EQ(read_all(*source).size(), 4u);
+  EXPECT_EQ(read_all(*source).size(), 4u);
+  EXPECT_EQ(source->info().notes.size(), 6u);
+}
+
+TEST(Depth, NothingUsableIsAnError) {
+  const ScratchFolder folder;
+  write_file(folder / "camera-intrinsics.txt", "1 2 3");
+  expect_error([&] { open_points(folder.path); }, {"camera-intrinsics.txt", "3 numbers"});
+  write_file(folder / "camera-intrinsics.txt", "0 0 1\n0 2 0.5\n0 0 1\n");
+  expect_error([&] { open_points(folder.path); }, {"camera-intrinsics.txt", "focal"});
+  write_file(folder / "camera-intrinsics.txt", kIntrinsics);
+  expect_error([&] { open_points(folder.path); }, {"frames", "frame-*.depth.png"});
+  write_frame(folder, "frame-1", kPose, "no image");
+  expect_error([&] { read_all(*open_points(folder.path)); }, {"frames"});
+  ReadOptions options;
+  options.depth_range = {2, 1};
+  expect_error([&] { open_points(folder.path, options); }, {"depth_range"});
+  options = {};
+  options.depth_step = 0;
+  expect_error([&] { open_points(folder.path, options); }, {"depth_step"});
+}
+
+TEST(Image, DarkPixelsBecomePoints) {
+  const auto source = open_points_in_memory(png8({"#  ", "  #"}), "a.png");
+  EXPECT_TRUE(source->info().two_dimensional);
+  EXPECT_EQ(read_all(*source).positions, (std::vector<Vec3>{Vec3(0, 1, 0), Vec3(2, 0, 0)}));
+}
+
+TEST(Image, TransparentIsWhiteAndJpegIsRead) {
+  cv::Mat image(2, 2, CV_8UC4, cv::Scalar(0, 0, 0, 0));
+  image.at<cv::Vec4b>(0, 1) = {0, 0, 0, 255};
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", image, bytes);
+  EXPECT_EQ(read({bytes.begin(), bytes.end()}, "a.png").positions, (std::vector<Vec3>{Vec3(1, 1, 0)}));
+  cv::imencode(".jpg", cv::Mat(8, 8, CV_8UC3, cv::Scalar(0, 0, 0)), bytes);
+  EXPECT_EQ(read({bytes.begin(), bytes.end()}, "a.jpg").size(), 64u);
+}
+
+TEST(Image, FaultsNameFileAndField) {
+  expect_read_error(png8({"   "}), "bad.png", {"pixels", "dark"});
+  expect_read_error(png8({"# #"}).substr(0, 20), "bad.png", {"image", "header"});
+  expect_read_error(png8(std::vector<std::string>(50, "# ## #")).substr(0, 60), "bad.png",
+                    {"image", "truncated"});
+  std::string huge = png8({"#"});
+  huge.replace(16, 8, std::string("\x00\x00\xff\xff\x00\x00\xff\xff", 8));
+  expect_read_error(huge, "bad.png", {"image", "65535 x 65535"});
+  expect_read_error("\xff\xd8\xff\xe0 broken", "bad.jpg", {"image"});
+}
+
+}  // namespace
+}  // namespace unseen::io

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <cmath>
+
+#include "io/samples.h"
+
+namespace unseen::io {
+namespace {
+
+std::string notes_of(const std::string& bytes, const std::string& name) {
+  std::string all;
+  for (const std::string& note : open_points_in_memory(bytes, name)->info().notes) all += note + "\n";
+  return all;
+}
+
+TEST(Text, PositionsWithAnySeparator) {
+  for (const char* s : {"1 2 3\n4 5 6\n", "1,2,3\n4,5,6\n", "1;2;3\r\n4;5;6\r\n", "1\t2\t3\n\n4\t5\t6",
+                        "  1   2 3 \n4 5 6", "# remark\n1, 2, 3\n4, 5, 6", "1,0;2,0;3\n4;5,0;6\n",
+                        "\xef\xbb\xbf"
+                        "1 2 3\n4 5 6\n",
+                        "x,y,z\n1,2,3\n4,5,6\n", "2\n1 2 3\n4 5 6\n",
+                        "\"1\",\"2\",\"3\"\n\"4\",\"5\",\"6\"\n", "+1 2 3\n4 5 6\n"}) {
+    const PointCloud cloud = read(s, "a.xyz");
+    ASSERT_EQ(cloud.size(), 2u) << s;
+    EXPECT_EQ(cloud.positions[0], Vec3(1, 2, 3)) << s;
+    EXPECT_EQ(cloud.positions[1], Vec3(4, 5, 6)) << s;
+    EXPECT_TRUE(cloud.normals.empty() && cloud.colors.empty());
+  }
+}
+
+TEST(Text, SixColumnsAreNormalsOrColours) {
+  EXPECT_EQ(read("1 2 3 0 0 1\n1 2 3 0 0 0\n1 2 3 0.6 0.8 0\n", "a.xyz").normals[2], Vec3f(0.6f, 0.8f, 0));
+  EXPECT_EQ(read("1 2 3 0 0 1\n1 2 3 0 200 1\n", "a.xyz").colors[1],
+            (std::array<std::uint8_t, 3>{0, 200, 1}));
+  const PointCloud other = read("1 2 3 0.1 0.2 900\n", "a.xyz");
+  EXPECT_TRUE(other.normals.empty() && other.colors.empty());
+  EXPECT_NE(notes_of("1 2 3 0.1 0.2 900\n", "a.xyz").find("ignored"), std::string::npos);
+}
+
+TEST(Text, WiderRows) {
+  const PointCloud pts = read("1\n1 2 3 -1500 10 20 30\n", "a.pts");
+  EXPECT_EQ(pts.colors[0], (std::array<std::uint8_t, 3>{10, 20, 30}));
+  const PointCloud nine = read("1 2 3 10 20 30 0 1 0\n", "a.txt");
+  EXPECT_EQ(nine.colors[0], (std::array<std::uint8_t, 3>{10, 20, 30}));
+  EXPECT_EQ(nine.normals[0], Vec3f(0, 1, 0));
+  EXPECT_NE(notes_of("1 2 3 10 20 30 0 1 0\n", "a.txt").find("x y z red green blue nx ny nz"),
+            std::string::npos);
+}
+
+TEST(Text, ANamedHeaderDecides) {
+  const PointCloud cloud = read("label,z,y,x,r,g,b,remark\n4,3,2,1,0.5,0,1,wall\n5,6,5,4,0,0,0,\n", "a.csv");
+  EXPECT_EQ(cloud.positions[1], Vec3(4, 5, 6));
+  EXPECT_EQ(cloud.labels, (std::vector<std::int32_t>{4, 5}));
+  EXPECT_EQ(cloud.colors[0], (std::array<std::uint8_t, 3>{128, 0, 255}));
+  EXPECT_EQ(read("//X Y Z Nx Ny Nz\n1 2 3 0 0 2\n", "a.asc").normals[0], Vec3f(0, 0, 2));
+}
+
+TEST(Text, TwoColumnsAreADrawing) {
+  const auto source = open_points_in_memory("1 2\n3 4\n", "a.txt");
+  EXPECT_TRUE(source->info().two_dimensional);
+  EXPECT_EQ(read_all(*source).positions[1], Vec3(3, 4, 0));
+}
+
+TEST(Text, PwnPointsThenNormals) {
+  const PointCloud cloud = read("2\n1 2 3\n4 5 6\n0 0 1\n0 1 0\n", "a.pwn");
+  ASSERT_EQ(cloud.size(), 2u);
+  EXPECT_EQ(cloud.normals[1], Vec3f(0, 1, 0));
+}
+
+TEST(Text, PtsWithSeveralScans) {
+  const PointCloud cloud = read("2\n1 2 3 0\n4 5 6 0\n1\n7 8 9 0\n", "a.pts");
+  ASSERT_EQ(cloud.size(), 3u);
+  EXPECT_EQ(cloud.positions[2], Vec3(7, 8, 9));
+}
+
+TEST(Text, PrecisionMissingAndExtremeNumbers) {
+  const PointCloud cloud = read("500000.123456789 1e999 1e-999\nnan inf -inf\n", "a.xyz");
+  EXPECT_EQ(cloud.positions[0].x(), 500000.123456789);
+  EXPECT_TRUE(std::isinf(cloud.positions[0].y()));
+  EXPECT_EQ(cloud.positions[0].z(), 0.0);
+  EXPECT_TRUE(std::isnan(cloud.positions[1].x()));
+  EXPECT_TRUE(std::isnan(read("1,2,3\n1,,3\n", "a.csv").positions[1].y()));
+}
+
+TEST(Text, FaultsNameFileAndLine) {
+  const auto bad = [](const std::string& s, const std::vector<std::string>& parts) {
+    expect_read_error(s, "bad.xyz", parts);
+  };
+  bad("\n\n", {"no row"});
+  bad("x y z\n", {"no row"});
+  bad("hello world\nfoo bar\n", {"line 2", "foo bar"});
+  bad("-3\n1 2 3\n", {"line 1", "-3", "count"});
+  bad("0\n", {"count of points", "0"});
+  bad("1000000000\n1 2 3\n", {"count of points", "1 line", "1000000000"});
+  bad("3\n1.25 2.25 3.25\n4.25 5.25 6.25\n", {"count of points", "2 points", "the 3"});
+  bad("1\n1 2 3\n4 5 6\n7 8 9\n", {"line 3", "4 5 6"});
+  bad("1 2 3\n4 5\n", {"line 2", "4 5", "3 numbers"});
+  bad("1 2 3\n4 5 6 7\n", {"line 2"});
+  bad("1 2 3\n4 five 6\n", {"line 2", "five"});
+  bad("1,2,3\n4,5\n", {"line 2", "4,5"});
+  bad("a,b,c\n1\n", {"count of points", "0 lines"});
+  bad(std::string("\xff\xfe"
+                  "1\0 \0",
+                  6),
+      {"UTF-16"});
+  bad(std::string("\1\2\3\4\0\0\5", 7), {"line 1"});
+  bad(std::string(3000000, '1'), {"line 1"});
+  expect_read_error(std::string("\1\2\3\4\0\0\5", 7), "noending", {"content", "no format known"});
+}
+
+}  // namespace
+}  // namespace unseen::io

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "io/samples.h"
+
+namespace unseen::io {
+namespace {
+
+TEST(Tiles, AreReadInTheOrderOfTheirNames) {
+  const ScratchFolder folder;
+  write_file(folder / "b.xyz", "4 5 6 0 0 1\n");
+  write_file(folder / "a.xyz", "1 2 3 0 0 1\n");
+  write_file(folder / "c.ply", ply_ascii());
+  write_file(folder / "remarks.json", "{}");
+  write_file(folder / "d.ply", "ply\n");
+  write_file(folder / "e.xyz", "1 2 3\n1 2\n");
+  const auto source = open_points(folder.path);
+  const SourceInfo info = source->info();
+  EXPECT_EQ(info.point_count, 5u);
+  EXPECT_FALSE(info.has_normals);  // c has none
+  std::string notes;
+  for (const std::string& note : info.notes) notes += note + "\n";
+  EXPECT_NE(notes.find("d.ply"), std::string::npos);
+  EXPECT_NE(notes.find("e.xyz"), std::string::npos);
+  EXPECT_NE(notes.find("only some tiles"), std::string::npos);
+  const PointCloud cloud = read_all(*source);
+  ASSERT_EQ(cloud.size(), 5u);
+  EXPECT_EQ(cloud.positions[1], Vec3(4, 5, 6));
+  EXPECT_TRUE(cloud.normals.empty() && cloud.labels.empty());
+  EXPECT_EQ(read_all(*source).positions[1], cloud.positions[1]);
+}
+
+TEST(Tiles, NothingUsableIsAnError) {
+  const ScratchFolder folder;
+  expect_error([&] { open_points(folder.path); }, {folder.path.string(), "no point files"});
+  write_file(folder / "a.ply", "ply\n");
+  expect_error([&] { open_points(folder.path); }, {folder.path.string(), "a.ply", "end_header"});
+  expect_error([&] { open_points(folder / "absent.ply"); }, {"absent.ply", "No such file"});
+}
+
+}  // namespace
+}  // namespace unseen::io
