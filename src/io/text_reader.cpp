@@ -39,9 +39,12 @@ class TextSource final : public PointSource {
   }
 
   bool next(PointCloud& block) override {
-    resize(block, attributes_, kBlock);
+    // A row has at least a separator or line end for each column.
+    const std::size_t room = (bytes_->view().size() - lines_.offset()) / layout_.columns.size() + 1;
+    const std::size_t most = std::min(kBlock, room);
+    resize(block, attributes_, most);
     std::size_t count = 0;
-    while (count < kBlock && next_point_line()) {
+    while (count < most && next_point_line()) {
       read_row(block, count);
       if (layout_.normals_follow) read_normal(block, count);
       ++count;
