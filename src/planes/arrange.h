@@ -7,41 +7,59 @@
 
 namespace unseen::planes {
 
-/// A frame in the tree that shared axes make: a child keeps one axis of its parent exactly and may only turn
-/// about it (a table turned on the floor keeps the floor's up).
-struct FrameNode {
-  OrientationFrame frame;
-  int parent = -1;
-  int parent_axis = -1;  ///< which axis of the parent it shares; it is this frame's first axis
+/// A relation between two frames that is kept exactly: (R_a·u)·(R_b·v) = cosine. A shared axis is two of them
+/// with cosine 0 (a table turned on the floor keeps the floor's up and may only turn about it).
+struct Constraint {
+  int a = -1, b = -1;  ///< nodes; a comes after b
+  Vec3 u, v;           ///< unit, in the frames' own coordinates
+  double cosine = 0;
 };
 
 /// A plane on its way to the result: which direction it has, which voxels support it.
 struct PlaneModel {
-  int frame = -1, local = -1;  ///< node, index into local_directions
+  int frame = -1, local = -1;  ///< indices into Model::frames and Model::locals
   Patch support;
   double offset = 0;
-  int coplanar = -1;  ///< planes with the same number share one offset
 };
 
 /// Everything the refit changes together.
 struct Model {
   std::vector<Vec3> locals;
-  std::vector<FrameNode> nodes;  ///< a parent comes before its children
+  std::vector<OrientationFrame> frames;  ///< the one with the most area first
+  std::vector<Constraint> constraints;   ///< independent of each other, by rising `a`
   std::vector<PlaneModel> planes;
 
-  Vec3 normal(const PlaneModel& p) const { return nodes[p.frame].frame.direction(locals[p.local]); }
+  Vec3 normal(const PlaneModel& p) const { return frames[p.frame].direction(locals[p.local]); }
 };
 
-/// Turns a selection into a model: frames that do not differ significantly become one, axes that do not differ
-/// significantly are shared, and patches of one direction that adjoin within the scale become one plane.
+/// Turns a selection into a model: frames that do not differ significantly become one, relations between
+/// frames that do not fail significantly become constraints, and patches of one direction that adjoin within
+/// the scale become one plane.
 Model build_model(const Selection& selection, const Patches& patches, const VoxelGrid& grid, const Cells& cells,
                   const AngleSet& angles, const Space& space, Context& context);
 
-/// Least squares over all planes at once with every relation kept exact: a rotation a frame (one angle where
-/// an axis is shared), an offset a plane or coplanar group.
+/// Least squares over all planes at once with every relation kept exact: a rotation a frame, an offset a plane.
 void refit(Model& model);
 
 /// Replaces a plane's moments, e.g. by those of the points assigned to it; its variances are scaled along.
 void update_support(PlaneModel& plane, const Moments& moments, const Space& space);
+
+/// A plane's normal as a residual: how far it turns from its fit along one axis of the plane, and how precise
+/// that is. Turning its frame by w changes `value` by w·jacobian.
+struct TiltResidual {
+  Vec3 jacobian;
+  double value, weight;
+};
+std::array<TiltResidual, 2> tilt_residuals(const Patch& support, const Vec3& normal, double systematic);
+
+/// How a constraint fails, and its change with a turn w of frame a: w·jacobian (of frame b: −w·jacobian).
+struct ConstraintResidual {
+  Vec3 jacobian;
+  double value;
+};
+ConstraintResidual residual_of(const Constraint& c, const Mat3& axes_a, const Mat3& axes_b);
+
+/// `axes` turned by the rotation vector w, orthonormal to rounding.
+Mat3 turned(const Mat3& axes, const Vec3& w);
 
 }  // namespace unseen::planes

@@ -23,22 +23,23 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
     reach.planes.push_back({model.normal(model.planes[p]), model.planes[p].offset});
     for (const int i : model.planes[p].support.cells) plane_of_cell[i] = static_cast<int>(p);
   }
-  std::vector<std::vector<std::int32_t>> lists(grid.size());
+  std::vector<std::vector<ReachedPlane>> lists(grid.size());
   parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      std::vector<std::int32_t>& list = lists[i];
+      std::vector<ReachedPlane>& list = lists[i];
       const Vec3 center = grid.center_of(grid.keys[i]);
       const double farthest = reach.tolerance[i] + 0.87 * grid.edge;
       grid.for_neighbours(grid.keys[i], kReach, [&](int k) {
         const int p = plane_of_cell[k];
-        if (p < 0 || std::find(list.begin(), list.end(), p) != list.end()) return;
+        if (p < 0 || std::any_of(list.begin(), list.end(), [&](const ReachedPlane& r) { return r.plane == p; })) return;
         const Plane& plane = reach.planes[p];
         if (std::abs(plane.signed_distance(center)) > farthest) return;
-        if (!use_point_normals && !cells.normal[i].isZero() && std::abs(cells.normal[i].dot(plane.normal)) < kCosNormal)
-          return;
-        list.push_back(p);
+        const Vec3& n = cells.normal[i];
+        list.push_back({p, n.isZero()                                  ? ReachedPlane::unknown
+                           : std::abs(n.dot(plane.normal)) < kCosNormal ? ReachedPlane::contradicts
+                                                                        : ReachedPlane::agrees});
       });
-      std::sort(list.begin(), list.end());
+      std::sort(list.begin(), list.end(), [](const ReachedPlane& a, const ReachedPlane& b) { return a.plane < b.plane; });
     }
   });
   reach.first.push_back(0);
@@ -64,19 +65,31 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
         last = key;
       }
       if (voxel < 0) continue;
-      double nearest = reach.tolerance[voxel];
+      double nearest = reach.tolerance[voxel], nearest_unsure = nearest;
+      int unsure = -1;
       for (std::uint32_t c = reach.first[voxel]; c < reach.first[voxel + 1]; ++c) {
-        const Plane& plane = reach.planes[reach.candidate[c]];
+        const ReachedPlane& candidate = reach.candidate[c];
+        const Plane& plane = reach.planes[candidate.plane];
         const double distance = std::abs(plane.signed_distance(p));
         if (distance >= nearest) continue;
-        if (reach.use_point_normals) {
+        ReachedPlane::Normal normal = candidate.normal;
+        if (normal != ReachedPlane::agrees && reach.use_point_normals) {
           const Vec3 n = block.normals[i].cast<double>();
           const double length = n.norm();
-          if (length > 0.5 && length < 2.0 && std::abs(n.dot(plane.normal)) < kCosNormal * length) continue;
+          if (length > 0.5 && length < 2.0 && std::abs(n.dot(plane.normal)) >= kCosNormal * length)
+            normal = ReachedPlane::agrees;
+        } else if (normal == ReachedPlane::unknown) {
+          normal = ReachedPlane::agrees;
         }
-        nearest = distance;
-        plane_of_point[i] = reach.candidate[c];
+        if (normal == ReachedPlane::agrees) {
+          nearest = distance;
+          plane_of_point[i] = candidate.plane;
+        } else if (normal == ReachedPlane::unknown && distance < nearest_unsure) {
+          nearest_unsure = distance;
+          unsure = candidate.plane;
+        }
       }
+      if (plane_of_point[i] < 0) plane_of_point[i] = unsure;
     }
   });
 }

@@ -9,21 +9,27 @@
 
 namespace unseen::planes {
 
-/// Which planes each voxel's points can belong to, and which one a point does.
-struct Reach {
-  std::vector<Plane> planes;
-  std::vector<std::uint32_t> first;   ///< per voxel: where its candidates start; one longer than the voxels
-  std::vector<std::int32_t> candidate;  ///< plane indices, ascending within a voxel
-  std::vector<double> tolerance;      ///< m, per voxel: a point farther than this has no plane
-  bool use_point_normals = false;     ///< input normals are checked (45°); else the voxel's own was
+/// A plane that a voxel's points may belong to, and whether the voxel's own normal speaks for it.
+struct ReachedPlane {
+  std::int32_t plane;
+  enum Normal : std::int8_t { agrees, unknown, contradicts } normal;
 };
 
-/// A plane reaches a voxel if one of its supporting voxels lies within about the scale of it, and if the
-/// voxel's normal, where it has one, is within 45° of the plane's.
+/// Which planes each voxel's points can belong to.
+struct Reach {
+  std::vector<Plane> planes;
+  std::vector<std::uint32_t> first;     ///< per voxel: where its candidates start; one longer than the voxels
+  std::vector<ReachedPlane> candidate;  ///< by plane within a voxel
+  std::vector<double> tolerance;        ///< m, per voxel: a point farther than this has no plane
+  bool use_point_normals = false;
+};
+
+/// A plane reaches a voxel if one of its supporting voxels lies within about the scale of it.
 Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, bool use_point_normals,
                  const Context& context);
 
-/// Plane of each point of a block: the nearest that reaches it; −1 = none or not finite.
+/// Plane of each point of a block: the nearest that reaches it and with which the voxel's normal or its own is
+/// compatible (45°), else the nearest where the voxel has no normal; −1 = none, or not finite.
 void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
                    const Context& context);
 

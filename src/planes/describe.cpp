@@ -16,7 +16,7 @@ constexpr double kSameDirection = 1e-9;  // rad: shared axes are equal up to rou
 /// A second axis of the plane's frame that lies in the plane, so that outlines follow walls.
 Vec3 in_plane_axis(const Model& model, const PlaneModel& plane) {
   const Vec3 n = model.normal(plane);
-  const Mat3& axes = model.nodes[plane.frame].frame.axes;
+  const Mat3& axes = model.frames[plane.frame].axes;
   for (int a = 0; a < 3; ++a)
     if (std::abs(axes.col(a).dot(n)) < 1e-9) return axes.col(a);
   return any_orthogonal(n);
@@ -45,7 +45,7 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
     return model.planes[a].support.area > model.planes[b].support.area;
   });
   std::vector<int> renumber(model.planes.size(), -1);
-  std::vector<int> frame_of_node(model.nodes.size(), -1);
+  std::vector<int> result_frame(model.frames.size(), -1);
   std::map<std::pair<int, int>, int> direction_of;
   for (const int p : order) {
     const PlaneModel& m = model.planes[p];
@@ -56,7 +56,7 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
     if (fresh) {
       for (std::size_t d = 0; d < result.directions.size() && it->second < 0; ++d)
         if (line_angle(result.directions[d].normal, plane.plane.normal) < kSameDirection) it->second = static_cast<int>(d);
-      int& frame = frame_of_node[m.frame];
+      int& frame = result_frame[m.frame];
       if (it->second < 0) {
         if (frame < 0) {
           frame = static_cast<int>(result.frames.size());

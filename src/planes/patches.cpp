@@ -32,8 +32,8 @@ double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis
   return std::max(robust, plain);
 }
 
-std::vector<std::pair<int, int>> find_neighbours(const VoxelGrid& grid, const Cells& cells,
-                                                 const std::vector<int>& patch_of_cell, double angle) {
+void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Patches& result) {
+  const std::vector<int>& patch_of_cell = result.patch_of_cell;
   std::vector<int> parent;
   const VoxelGrid coarse = grid.coarser(parent);  // voxels of edge ρ
   struct Member {
@@ -49,16 +49,18 @@ std::vector<std::pair<int, int>> find_neighbours(const VoxelGrid& grid, const Ce
     if (std::none_of(list.begin(), list.end(), [&](const Member& m) { return m.patch == patch; }))
       list.push_back({patch, grid.moments[i].mean, cells.normal[i], cells.tolerance[i]});
   }
-  std::set<std::pair<int, int>> pairs;
+  std::set<std::pair<int, int>> adjoining, neighbours;
   for (std::size_t c = 0; c < coarse.size(); ++c)
     for (const Member& a : members[c])
       coarse.for_neighbours(coarse.keys[c], 2, [&](int o) {
         for (const Member& b : members[o])
-          if (a.patch < b.patch && (a.mean - b.mean).norm() < 2.0 * a.tolerance &&
-              line_angle(a.normal, b.normal) < angle)
-            pairs.insert({a.patch, b.patch});
+          if (a.patch < b.patch && (a.mean - b.mean).norm() < 2.0 * a.tolerance) {
+            adjoining.insert({a.patch, b.patch});
+            if (line_angle(a.normal, b.normal) < angle) neighbours.insert({a.patch, b.patch});
+          }
       });
-  return {pairs.begin(), pairs.end()};
+  result.adjoining.assign(adjoining.begin(), adjoining.end());
+  result.neighbours.assign(neighbours.begin(), neighbours.end());
 }
 
 }  // namespace
@@ -80,6 +82,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   regions = split_regions(grid, space, std::move(regions), context);
   regions = merge_regions(grid, cells, space, angle, std::move(regions), context);
   regions = split_regions(grid, space, std::move(regions), context);
+  regions = drop_rims(grid, cells, space, std::move(regions), context);
 
   Patches result;
   for (std::vector<int>& region : regions) result.patches.push_back(make_patch(grid, space, std::move(region)));
@@ -88,7 +91,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   result.patch_of_cell.assign(grid.size(), -1);
   for (std::size_t j = 0; j < result.patches.size(); ++j)
     for (const int i : result.patches[j].cells) result.patch_of_cell[i] = static_cast<int>(j);
-  result.neighbours = find_neighbours(grid, cells, result.patch_of_cell, angle);
+  find_neighbours(grid, cells, angle, result);
   return result;
 }
 

@@ -22,7 +22,8 @@ struct Patch {
 struct Patches {
   std::vector<Patch> patches;                  ///< by falling area
   std::vector<int> patch_of_cell;              ///< −1 = none
-  std::vector<std::pair<int, int>> neighbours;  ///< closest points nearer than 2ρ, local normals within τ; a < b
+  std::vector<std::pair<int, int>> adjoining;   ///< closest points nearer than 2ρ; a < b
+  std::vector<std::pair<int, int>> neighbours;  ///< those of them whose local normals there are within τ
 };
 
 /// Moments, fit, area and standard errors of a set of voxels.
@@ -40,5 +41,9 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
 CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context);
 CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
                        CellSets regions, Context& context);
+/// Leaves out regions that the planes of larger ones nearby explain within the local scale: rims where two
+/// planes meet, not structures of their own.
+CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space, CellSets regions,
+                   Context& context);
 
 }  // namespace unseen::planes

@@ -123,7 +123,10 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, const std::vector<int>& plane) {
       points.add(block, plane, seen.duplicate);
     });
-    for (std::size_t p = 0; p < sums.size(); ++p) update_support(model.planes[p], points.moments(p), space);
+    for (std::size_t p = 0; p < sums.size(); ++p) {
+      sums[p] = points.moments(p);
+      update_support(model.planes[p], sums[p], space);
+    }
     refit(model);
   }
   {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-// From a selection to a model: what does not differ significantly is made one.
+#include "planes/reconcile.h"
+
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "planes/arrange.h"
 
 namespace unseen::planes {
 namespace {
 
 // χ² beyond which a constraint is refused: three standard errors for one, two and three degrees of freedom.
 constexpr double kSignificant[] = {0.0, 9.0, 11.8, 14.2};
-constexpr double kShareAngle = 3.0 * kPi / 180.0;
+constexpr double kNear = 3.0 * kPi / 180.0;      // relations that fail by more are not considered
+constexpr double kWithin = 15.0 * kPi / 180.0;   // a patch never turns farther than this
+constexpr std::size_t kEarlier = 40;             // only the heaviest frames constrain others
 
 struct Member {
   int patch, local;
@@ -24,224 +25,195 @@ struct Group {
   double weight = 0;
 };
 
-class Reconciler {
- public:
-  Reconciler(const Patches& patches, const std::vector<Vec3>& locals, const AngleSet& angles, const Space& space)
-      : patches_(patches), locals_(locals), angles_(angles), space_(space) {}
+struct Problem {
+  const Patches& patches;
+  const std::vector<Vec3>& locals;
+  const AngleSet& angles;
+  const Space& space;
 
-  const Patch& patch(const Member& m) const { return patches_.patches[m.patch]; }
+  const Patch& patch(const Member& m) const { return patches.patches[m.patch]; }
+};
 
-  double chi2(const OrientationFrame& frame, const std::vector<Member>& members) const {
-    double sum = 0;
-    for (const Member& m : members) sum += tilt_chi2(patch(m), frame.direction(locals_[m.local]));
-    return sum;
+double chi2(const Problem& p, const OrientationFrame& frame, const std::vector<Member>& members) {
+  double sum = 0;
+  for (const Member& m : members) sum += tilt_chi2(p.patch(m), frame.direction(p.locals[m.local]));
+  return sum;
+}
+
+/// The frame turned to suit its members best while constraints against earlier frames hold.
+OrientationFrame fit_constrained(const Problem& p, OrientationFrame frame, const std::vector<Member>& members,
+                                 const std::vector<Constraint>& constraints,
+                                 const std::vector<OrientationFrame>& earlier) {
+  const int rows = static_cast<int>(constraints.size());
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(3 + rows, 3 + rows);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(3 + rows);
+    double largest = 0;
+    for (const Member& m : members)
+      for (const TiltResidual& r :
+           tilt_residuals(p.patch(m), frame.direction(p.locals[m.local]), kSystematicTilt)) {
+        system.topLeftCorner<3, 3>() += r.weight * r.jacobian * r.jacobian.transpose();
+        right.head<3>() -= r.weight * r.value * r.jacobian;
+        largest = std::max(largest, r.weight);
+      }
+    system.diagonal().head<3>().array() += 1e-6 * largest;
+    for (int i = 0; i < rows; ++i) {
+      const ConstraintResidual r = residual_of(constraints[i], frame.axes, earlier[constraints[i].b].axes);
+      system.block<1, 3>(3 + i, 0) = largest * r.jacobian.transpose();
+      system.block<3, 1>(0, 3 + i) = largest * r.jacobian;
+      right[3 + i] = -largest * r.value;
+    }
+    const Vec3 step = system.fullPivLu().solve(right).head<3>();
+    frame.axes = turned(frame.axes, step);
+    if (step.norm() < 1e-13) break;
   }
+  return frame;
+}
 
-  OrientationFrame fitted(const OrientationFrame& frame, const std::vector<Member>& members) const {
-    std::vector<std::pair<const Patch*, int>> list;
-    for (const Member& m : members) list.emplace_back(&patch(m), m.local);
-    return refit_frame(frame, locals_, list);
+/// A relation that may hold between a frame's direction and one of an earlier frame.
+struct Hypothesis {
+  std::vector<Constraint> rows;  // one, or two for parallel directions
+  double deviation;
+};
+
+/// Directions of a frame that planes have, and its axes.
+std::vector<Vec3> telling_directions(const Problem& p, const OrientationFrame& frame, const std::vector<Member>& members) {
+  std::vector<Vec3> directions;
+  const auto add = [&](const Vec3& d) {
+    for (const Vec3& o : directions)
+      if (line_angle(o, d) < 1e-9) return;
+    directions.push_back(d);
+  };
+  for (const Member& m : members) add(p.locals[m.local]);
+  if (frame.closed)
+    for (int a = 0; a < 3; ++a) add(Vec3::Unit(a));
+  return directions;
+}
+
+std::vector<Hypothesis> hypotheses(const Problem& p, const OrientationFrame& frame, const std::vector<Vec3>& own,
+                                   int index, int earlier, const OrientationFrame& other,
+                                   const std::vector<Vec3>& others) {
+  std::vector<Hypothesis> list;
+  for (const Vec3& u : own)
+    for (const Vec3& v : others) {
+      const Vec3 a = frame.direction(u), b = other.direction(v);
+      const double angle = line_angle(a, b);
+      for (const double theta : p.angles.all) {
+        if (theta > kPi / 2 + 1e-9) continue;
+        const double deviation = std::abs(angle - theta);
+        if (deviation > kNear) continue;
+        Hypothesis h{{}, deviation};
+        if (theta == 0.0) {
+          const Vec3 first = any_orthogonal(v);
+          h.rows = {{index, earlier, u, first, 0.0}, {index, earlier, u, v.cross(first), 0.0}};
+        } else {
+          h.rows = {{index, earlier, u, v, std::cos(theta) * (a.dot(b) < 0 ? -1.0 : 1.0)}};
+          if (std::abs(theta - kPi / 2) < 1e-9) h.rows[0].cosine = 0.0;
+        }
+        list.push_back(std::move(h));
+      }
+    }
+  // Parallel directions say most; among equals the nearest comes first.
+  std::stable_sort(list.begin(), list.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.rows.size() != b.rows.size() ? a.rows.size() > b.rows.size() : a.deviation < b.deviation;
+  });
+  return list;
+}
+
+/// True if the constraints determine independent turns of their frame.
+bool independent(const std::vector<Constraint>& rows, const OrientationFrame& frame,
+                 const std::vector<OrientationFrame>& earlier) {
+  std::vector<Vec3> basis;
+  for (const Constraint& c : rows) {
+    Vec3 j = residual_of(c, frame.axes, earlier[c.b].axes).jacobian;
+    for (const Vec3& b : basis) j -= j.dot(b) * b;
+    if (j.norm() < 0.1) return false;
+    basis.push_back(j.normalized());
   }
+  return true;
+}
 
-  /// The members' nearest directions in another frame; χ² of that in `sum`.
-  std::vector<Member> relabel(const OrientationFrame& frame, std::vector<Member> members, double& sum) const {
-    sum = 0;
+std::vector<Group> groups_of(const Problem& p, const Selection& selection) {
+  std::vector<Group> groups(selection.frames.size());
+  for (std::size_t k = 0; k < groups.size(); ++k) groups[k].frame = selection.frames[k];
+  for (std::size_t j = 0; j < p.patches.patches.size(); ++j) {
+    Group& g = groups[selection.frame_of_patch[j]];
+    g.members.push_back({static_cast<int>(j), selection.local_of_patch[j]});
+    g.weight += p.patches.patches[j].area;
+  }
+  std::erase_if(groups, [](const Group& g) { return g.members.empty(); });
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.weight > b.weight; });
+  return groups;
+}
+
+/// The earlier group from which this one does not differ significantly, and its members' directions there.
+int equivalent_group(const Problem& p, const Group& group, const std::vector<Group>& earlier,
+                     std::vector<Member>& members) {
+  const double free = chi2(p, group.frame, group.members);
+  const double limit = kSignificant[p.space.is_2d() ? 1 : group.frame.closed ? 3 : 2];
+  for (std::size_t g = 0; g < earlier.size(); ++g) {
+    const OrientationFrame& frame = earlier[g].frame;
+    members = group.members;
+    double sum = 0, farthest = 0;
     for (Member& m : members) {
       double least = std::numeric_limits<double>::infinity();
-      for (std::size_t l = 0; l < (frame.closed ? locals_.size() : 1); ++l)
-        if (const double c = tilt_chi2(patch(m), frame.direction(locals_[l])); c < least) {
+      for (std::size_t l = 0; l < (frame.closed ? p.locals.size() : 1); ++l)
+        if (const double c = tilt_chi2(p.patch(m), frame.direction(p.locals[l])); c < least) {
           least = c;
           m.local = static_cast<int>(l);
         }
       sum += least;
+      farthest = std::max(farthest, line_angle(p.patch(m).fit.normal, frame.direction(p.locals[m.local])));
     }
-    return members;
+    if (sum - free < limit && farthest < kWithin) return static_cast<int>(g);
   }
-
-  /// The frame whose first axis is exactly `axis`, turned about it to suit its members best.
-  OrientationFrame turned_about(const Vec3& axis, OrientationFrame frame, const std::vector<Member>& members) const {
-    for (int iteration = 0; iteration < 10; ++iteration) {
-      double information = 0, gradient = 0;
-      for (const Member& m : members) {
-        const Vec3 n = frame.direction(locals_[m.local]);
-        const Patch& p = patch(m);
-        const auto add = [&](const Vec3& u, double variance) {
-          const double j = axis.dot(n.cross(u)), v = variance + kSystematicTilt * kSystematicTilt;
-          information += j * j / v;
-          gradient -= j * n.dot(u) / v;
-        };
-        add(p.fit.u, p.variance_u);
-        add(p.fit.v, p.variance_v);
-      }
-      if (!(information > 0)) break;
-      const double w = gradient / information;
-      const Vec3 second = Eigen::AngleAxisd(w, axis) * frame.axes.col(1);
-      frame.axes.col(0) = axis;
-      frame.axes.col(1) = (second - second.dot(axis) * axis).normalized();
-      frame.axes.col(2) = axis.cross(frame.axes.col(1));
-      if (std::abs(w) < 1e-12) break;
-    }
-    return frame;
-  }
-
-  /// Joins `group` to a node if an axis of the node may be its own; true if that was done.
-  bool share_axis(const Group& group, const std::vector<FrameNode>& nodes, FrameNode& result,
-                  std::vector<Member>& members) const {
-    const double free = chi2(group.frame, group.members);
-    for (std::size_t g = 0; g < nodes.size(); ++g) {
-      if (!nodes[g].frame.closed) continue;
-      double best = kSignificant[2];
-      for (int a = 0; a < 3; ++a) {
-        const Vec3 axis = nodes[g].frame.axes.col(a);
-        OrientationFrame start;
-        start.closed = true;
-        if (group.frame.closed) {
-          int own = 0;
-          for (int b = 1; b < 3; ++b)
-            if (line_angle(group.frame.axes.col(b), axis) < line_angle(group.frame.axes.col(own), axis)) own = b;
-          if (line_angle(group.frame.axes.col(own), axis) > kShareAngle) continue;
-          const Vec3 other = group.frame.axes.col((own + 1) % 3);
-          start.axes << axis, other, axis.cross(other);
-        } else {
-          const Vec3 d = group.frame.axes.col(0);
-          if (std::abs(line_angle(d, axis) - kPi / 2) > kShareAngle || !angles_.has_right_angle) continue;
-          start.axes << axis, d, axis.cross(d);
-        }
-        start.axes.col(1) = (start.axes.col(1) - start.axes.col(1).dot(axis) * axis).normalized();
-        start.axes.col(2) = axis.cross(start.axes.col(1));
-        double sum = 0;
-        std::vector<Member> labelled = relabel(start, group.members, sum);
-        const OrientationFrame frame = turned_about(axis, start, labelled);
-        const double loss = chi2(frame, labelled) - free;
-        if (loss >= best) continue;
-        best = loss;
-        result = {frame, static_cast<int>(g), a};
-        members = std::move(labelled);
-      }
-      if (best < kSignificant[2]) return true;
-    }
-    return false;
-  }
-
-  std::vector<Group> groups(const Selection& selection) const {
-    std::vector<Group> groups(selection.frames.size());
-    for (std::size_t k = 0; k < groups.size(); ++k) groups[k].frame = selection.frames[k];
-    for (std::size_t j = 0; j < patches_.patches.size(); ++j) {
-      Group& g = groups[selection.frame_of_patch[j]];
-      g.members.push_back({static_cast<int>(j), selection.local_of_patch[j]});
-      g.weight += patches_.patches[j].area;
-    }
-    std::erase_if(groups, [](const Group& g) { return g.members.empty(); });
-    std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.weight > b.weight; });
-    return groups;
-  }
-
-  /// Nodes and, per node, its members.
-  std::pair<std::vector<FrameNode>, std::vector<std::vector<Member>>> run(const Selection& selection) const {
-    std::vector<FrameNode> nodes;
-    std::vector<std::vector<Member>> members;
-    for (Group& group : groups(selection)) {
-      group.frame = fitted(group.frame, group.members);
-      if (!absorb(group, nodes, members)) {
-        FrameNode node{group.frame, -1, -1};
-        std::vector<Member> own = group.members;
-        if (!space_.is_2d()) share_axis(group, nodes, node, own);
-        nodes.push_back(node);
-        members.push_back(std::move(own));
-      }
-    }
-    return {std::move(nodes), std::move(members)};
-  }
-
- private:
-  /// Gives the members of a group to a frame from which it does not differ significantly.
-  bool absorb(const Group& group, std::vector<FrameNode>& nodes, std::vector<std::vector<Member>>& members) const {
-    const double free = chi2(group.frame, group.members);
-    const double limit = kSignificant[space_.is_2d() ? 1 : group.frame.closed ? 3 : 2];
-    for (std::size_t g = 0; g < nodes.size(); ++g) {
-      double sum = 0;
-      std::vector<Member> labelled = relabel(nodes[g].frame, group.members, sum);
-      if (sum - free >= limit) continue;
-      bool within = true;
-      for (const Member& m : labelled)
-        within = within && line_angle(patch(m).fit.normal, nodes[g].frame.direction(locals_[m.local])) < kPi / 12;
-      if (!within) continue;
-      members[g].insert(members[g].end(), labelled.begin(), labelled.end());
-      return true;
-    }
-    return false;
-  }
-
-  const Patches& patches_;
-  const std::vector<Vec3>& locals_;
-  const AngleSet& angles_;
-  const Space& space_;
-};
+  return -1;
+}
 
 }  // namespace
 
-Model build_model(const Selection& selection, const Patches& patches, const VoxelGrid& grid, const Cells& cells,
-                  const AngleSet& angles, const Space& space, Context& context) {
-  Model model;
-  model.locals = local_directions(angles, space);
-  auto [nodes, members] = Reconciler(patches, model.locals, angles, space).run(selection);
-  model.nodes = std::move(nodes);
-  context.check();
-
-  // One number for each direction in space, so that shared axes count as one.
-  const std::size_t n = patches.patches.size();
-  std::vector<std::pair<int, int>> label(n);  // node, local
-  for (std::size_t g = 0; g < members.size(); ++g)
-    for (const Member& m : members[g]) label[m.patch] = {static_cast<int>(g), m.local};
-  const auto normal_of = [&](std::size_t j) {
-    return model.nodes[label[j].first].frame.direction(model.locals[label[j].second]);
-  };
-
-  // Patches of one orientation that adjoin within the scale become one plane, the most alike first.
-  std::vector<int> group(n);
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](int j) {
-    while (group[j] != j) j = group[j] = group[group[j]];
-    return j;
-  };
-  std::vector<Moments> sums(n);
-  for (std::size_t j = 0; j < n; ++j) sums[j] = patches.patches[j].moments;
-  struct Join {
-    double gap;
-    int a, b;
-  };
-  std::vector<Join> joins;
-  for (const auto& [a, b] : patches.neighbours) {
-    const Vec3 normal = normal_of(a);
-    if (line_angle(normal, normal_of(b)) > 1e-7) continue;
-    joins.push_back({std::abs(normal.dot(sums[a].mean - sums[b].mean)), a, b});
-  }
-  std::stable_sort(joins.begin(), joins.end(), [](const Join& a, const Join& b) { return a.gap < b.gap; });
-  for (const Join& join : joins) {
-    const int a = root(join.a), b = root(join.b);
-    if (a == b) continue;
-    const double tolerance = std::min(cells.tolerance[patches.patches[a].cells.front()],
-                                      cells.tolerance[patches.patches[b].cells.front()]);
-    if (std::abs(normal_of(a).dot(sums[a].mean - sums[b].mean)) >= tolerance) continue;
-    const int keep = std::min(a, b), gone = std::max(a, b);  // the larger patch gives the frame
-    group[gone] = keep;
-    sums[keep] += sums[gone];
-  }
-  for (std::size_t j = 0; j < n; ++j) {
-    if (root(static_cast<int>(j)) != static_cast<int>(j)) continue;
-    PlaneModel plane;
-    std::tie(plane.frame, plane.local) = label[j];
-    std::vector<int> members_cells;
-    for (std::size_t k = j; k < n; ++k)
-      if (root(static_cast<int>(k)) == static_cast<int>(j)) {
-        const std::vector<int>& c = patches.patches[k].cells;
-        members_cells.insert(members_cells.end(), c.begin(), c.end());
+Reconciled reconcile(const Selection& selection, const Patches& patches, const std::vector<Vec3>& locals,
+                     const AngleSet& angles, const Space& space) {
+  const Problem p{patches, locals, angles, space};
+  Reconciled result;
+  std::vector<Group> nodes;
+  for (Group& group : groups_of(p, selection)) {
+    group.frame = fit_constrained(p, group.frame, group.members, {}, {});
+    std::vector<Member> members;
+    if (const int g = equivalent_group(p, group, nodes, members); g >= 0) {
+      nodes[g].members.insert(nodes[g].members.end(), members.begin(), members.end());
+      continue;
+    }
+    const int index = static_cast<int>(nodes.size());
+    const std::vector<Vec3> own = telling_directions(p, group.frame, group.members);
+    const double free = chi2(p, group.frame, group.members);
+    std::vector<Constraint> rows;
+    const std::size_t most = space.is_2d() ? 0 : group.frame.closed ? 3 : 2;  // turns that are left to fix
+    for (std::size_t e = 0; e < std::min(nodes.size(), kEarlier) && rows.size() < most; ++e) {
+      const std::vector<Vec3> others = telling_directions(p, nodes[e].frame, nodes[e].members);
+      for (const Hypothesis& h : hypotheses(p, group.frame, own, index, static_cast<int>(e), nodes[e].frame, others)) {
+        if (rows.size() + h.rows.size() > most) continue;
+        std::vector<Constraint> more = rows;
+        more.insert(more.end(), h.rows.begin(), h.rows.end());
+        if (!independent(more, group.frame, result.frames)) continue;
+        const OrientationFrame frame = fit_constrained(p, group.frame, group.members, more, result.frames);
+        if (chi2(p, frame, group.members) - free > kSignificant[more.size()]) continue;
+        rows = std::move(more);
+        group.frame = frame;
       }
-    std::sort(members_cells.begin(), members_cells.end());
-    plane.support = make_patch(grid, space, std::move(members_cells));
-    model.planes.push_back(std::move(plane));
+    }
+    result.constraints.insert(result.constraints.end(), rows.begin(), rows.end());
+    result.frames.push_back(group.frame);
+    nodes.push_back(std::move(group));
   }
-  return model;
+  result.frame_of_patch.assign(patches.patches.size(), -1);
+  result.local_of_patch.assign(patches.patches.size(), -1);
+  for (std::size_t g = 0; g < nodes.size(); ++g)
+    for (const Member& m : nodes[g].members) {
+      result.frame_of_patch[m.patch] = static_cast<int>(g);
+      result.local_of_patch[m.patch] = m.local;
+    }
+  return result;
 }
 
 }  // namespace unseen::planes

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "planes/arrange.h"
 
@@ -12,98 +11,63 @@ namespace {
 
 constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no plane is known better than this
 
-/// Where a node's unknowns start in the vector of all: three for a root, one for a child.
-std::vector<int> unknowns_of(const Model& model, int& total) {
-  std::vector<int> start;
-  total = 0;
-  for (const FrameNode& node : model.nodes) {
-    start.push_back(total);
-    total += node.parent < 0 ? 3 : 1;
-  }
-  return start;
-}
-
-/// Rotation vector of a node as the sum of its own and its ancestors' unknowns: (column, axis) pairs.
-std::vector<std::pair<int, Vec3>> columns_of(const Model& model, const std::vector<int>& start, int node) {
-  std::vector<std::pair<int, Vec3>> columns;
-  for (; node >= 0; node = model.nodes[node].parent) {
-    const FrameNode& f = model.nodes[node];
-    if (f.parent >= 0) {
-      columns.emplace_back(start[node], f.frame.axes.col(0));
-    } else {
-      for (int a = 0; a < 3; ++a) columns.emplace_back(start[node] + a, Vec3::Unit(a));
-    }
-  }
-  return columns;
-}
-
-/// Orthonormal again after a step, with the first axis untouched.
-void orthonormalise(Mat3& axes) {
-  axes.col(0).normalize();
-  axes.col(1) = (axes.col(1) - axes.col(1).dot(axes.col(0)) * axes.col(0)).normalized();
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-}
-
-void turn(Model& model, const std::vector<int>& start, const Eigen::VectorXd& step) {
-  std::vector<Vec3> rotation(model.nodes.size());
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    FrameNode& node = model.nodes[i];
-    if (node.parent < 0) {
-      rotation[i] = step.segment<3>(start[i]);
-    } else {
-      rotation[i] = rotation[node.parent] + step[start[i]] * node.frame.axes.col(0);
-    }
-  }
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    FrameNode& node = model.nodes[i];
-    const double angle = rotation[i].norm();
-    if (angle > 0) node.frame.axes = Eigen::AngleAxisd(angle, rotation[i] / angle) * node.frame.axes;
-    if (node.parent >= 0) node.frame.axes.col(0) = model.nodes[node.parent].frame.axes.col(node.parent_axis);
-    orthonormalise(node.frame.axes);
-  }
-}
-
 }  // namespace
 
+std::array<TiltResidual, 2> tilt_residuals(const Patch& support, const Vec3& normal, double systematic) {
+  const PlaneFit& fit = support.fit;
+  const double floor = systematic * systematic + 1e-18;
+  // Turning by w moves n by w × n, so its component along u by w·(n × u).
+  return {TiltResidual{normal.cross(fit.u), normal.dot(fit.u), 1.0 / (support.variance_u + floor)},
+          TiltResidual{normal.cross(fit.v), normal.dot(fit.v), 1.0 / (support.variance_v + floor)}};
+}
+
+ConstraintResidual residual_of(const Constraint& c, const Mat3& axes_a, const Mat3& axes_b) {
+  const Vec3 u = axes_a * c.u, v = axes_b * c.v;
+  return {u.cross(v), u.dot(v) - c.cosine};
+}
+
+Mat3 turned(const Mat3& axes, const Vec3& w) {
+  Mat3 result = axes;
+  if (const double angle = w.norm(); angle > 0) result = Eigen::AngleAxisd(angle, w / angle) * axes;
+  result.col(0).normalize();
+  result.col(1) = (result.col(1) - result.col(1).dot(result.col(0)) * result.col(0)).normalized();
+  result.col(2) = result.col(0).cross(result.col(1));
+  return result;
+}
+
 void refit(Model& model) {
-  int total = 0;
-  const std::vector<int> start = unknowns_of(model, total);
-  for (int iteration = 0; iteration < 20; ++iteration) {
-    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(total, total);
-    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(total);
-    for (const PlaneModel& plane : model.planes) {
-      const Vec3 n = model.normal(plane);
-      const PlaneFit& fit = plane.support.fit;
-      const auto columns = columns_of(model, start, plane.frame);
-      const auto add = [&](const Vec3& u, double variance) {
-        const double weight = 1.0 / (variance + kFloor * kFloor), residual = n.dot(u);
-        const Vec3 j = n.cross(u);  // d(n·u) = w·(n × u)
-        for (const auto& [a, axis_a] : columns) {
-          const double ja = axis_a.dot(j);
-          gradient[a] -= weight * ja * residual;
-          for (const auto& [b, axis_b] : columns) information(a, b) += weight * ja * axis_b.dot(j);
-        }
-      };
-      add(fit.u, plane.support.variance_u);
-      add(fit.v, plane.support.variance_v);
+  const int turns = 3 * static_cast<int>(model.frames.size());
+  const int total = turns + static_cast<int>(model.constraints.size());
+  for (int iteration = 0; iteration < 20 && turns > 0; ++iteration) {
+    // Gauss–Newton with Lagrange multipliers: [H Jᵀ; J 0] [w; μ] = [−g; −c].
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(total, total);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(total);
+    double largest = 0;
+    for (const PlaneModel& plane : model.planes)
+      for (const TiltResidual& r : tilt_residuals(plane.support, model.normal(plane), kFloor)) {
+        const int at = 3 * plane.frame;
+        system.block<3, 3>(at, at) += r.weight * r.jacobian * r.jacobian.transpose();
+        right.segment<3>(at) -= r.weight * r.value * r.jacobian;
+        largest = std::max(largest, r.weight);
+      }
+    // What no plane determines stays where it is.
+    system.diagonal().head(turns).array() += 1e-9 * largest;
+    for (std::size_t i = 0; i < model.constraints.size(); ++i) {
+      const Constraint& c = model.constraints[i];
+      const ConstraintResidual r = residual_of(c, model.frames[c.a].axes, model.frames[c.b].axes);
+      const int row = turns + static_cast<int>(i);
+      // Scaled so that multipliers are of the size of the turns.
+      system.block<1, 3>(row, 3 * c.a) = largest * r.jacobian.transpose();
+      system.block<1, 3>(row, 3 * c.b) = -largest * r.jacobian.transpose();
+      right[row] = -largest * r.value;
     }
-    // What no plane constrains stays where it is.
-    const double damping = 1e-9 * std::max(information.diagonal().maxCoeff(), 1e-300);
-    information.diagonal().array() += damping;
-    const Eigen::VectorXd step = information.ldlt().solve(gradient);
-    turn(model, start, step);
-    if (step.norm() < 1e-13) break;
+    system.topRightCorner(turns, total - turns) = system.bottomLeftCorner(total - turns, turns).transpose();
+    const Eigen::VectorXd step = system.partialPivLu().solve(right);
+    for (std::size_t f = 0; f < model.frames.size(); ++f)
+      model.frames[f].axes = turned(model.frames[f].axes, step.segment<3>(3 * static_cast<int>(f)));
+    if (step.head(turns).norm() < 1e-14) break;
   }
-  std::map<int, std::pair<double, double>> common;  // coplanar group → Σ count·offset, Σ count
-  for (PlaneModel& plane : model.planes) {
-    plane.offset = model.normal(plane).dot(plane.support.moments.mean);
-    if (plane.coplanar < 0) continue;
-    auto& [sum, count] = common[plane.coplanar];
-    sum += plane.support.moments.count * plane.offset;
-    count += plane.support.moments.count;
-  }
-  for (PlaneModel& plane : model.planes)
-    if (plane.coplanar >= 0) plane.offset = common[plane.coplanar].first / common[plane.coplanar].second;
+  for (PlaneModel& plane : model.planes) plane.offset = model.normal(plane).dot(plane.support.moments.mean);
 }
 
 void update_support(PlaneModel& plane, const Moments& moments, const Space& space) {

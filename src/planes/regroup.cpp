@@ -16,6 +16,8 @@ constexpr double kSplitGain = 0.6;       // a split must leave less than this sh
 constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature
 constexpr double kMergeLoss = 1.2;       // a merge may raise either part's rms by this factor
 constexpr std::size_t kSplitCells = 12;  // smaller regions are left alone
+constexpr int kRimReach = 3;             // voxels: how near a larger region must be to explain one
+constexpr double kRimShare = 0.9;        // of a region's points that must be explained
 
 double squared_error(const Moments& m, const Space& space) {
   const PlaneFit fit = fit_plane(m, space);
@@ -176,6 +178,45 @@ CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& s
       result.push_back(std::move(r.cells));
     }
   return result;
+}
+
+CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space, CellSets regions,
+                   Context& context) {
+  std::vector<Plane> planes;
+  std::vector<double> size;
+  std::vector<int> region_of(grid.size(), -1);
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const Moments m = sum_of(grid, regions[r]);
+    const PlaneFit fit = fit_plane(m, space);
+    planes.push_back({fit.normal, fit.normal.dot(m.mean)});
+    size.push_back(space.is_2d() ? fit.spread_u : fit.spread_u * fit.spread_v);
+    for (const int i : regions[r]) region_of[i] = static_cast<int>(r);
+  }
+  std::vector<int> order(regions.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] < size[b]; });
+  CellSets kept;
+  for (const int r : order) {
+    context.check();
+    double explained = 0, total = 0;
+    for (const int i : regions[r]) {
+      bool found = false;
+      grid.for_neighbours(grid.keys[i], kRimReach, [&](int k) {
+        const int o = region_of[k];
+        if (o < 0 || o == r || size[o] <= size[r]) return;
+        found = found || std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];
+      });
+      total += grid.moments[i].count;
+      if (found) explained += grid.moments[i].count;
+    }
+    if (explained < kRimShare * total) {
+      kept.push_back(std::move(regions[r]));
+    } else {
+      for (const int i : regions[r]) region_of[i] = -1;
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  return kept;
 }
 
 }  // namespace unseen::planes
