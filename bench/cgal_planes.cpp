@@ -148,9 +148,16 @@ Detection regularized_region_growing(const OrientedPoints& oriented, double scal
 }
 
 Detection efficient_ransac(const OrientedPoints& oriented, double scale) {
-  using Traits = CGAL::Shape_detection::Efficient_RANSAC_traits<Kernel, Points, PointMap, NormalMap>;
+  // detect() reorders its input and speaks of points by their new places: each carries its own index.
+  using Indexed = std::tuple<Kernel::Point_3, Kernel::Vector_3, std::size_t>;
+  using IndexedPoints = std::vector<Indexed>;
+  using Traits = CGAL::Shape_detection::Efficient_RANSAC_traits<Kernel, IndexedPoints,
+                                                                CGAL::Nth_of_tuple_property_map<0, Indexed>,
+                                                                CGAL::Nth_of_tuple_property_map<1, Indexed>>;
   using Ransac = CGAL::Shape_detection::Efficient_RANSAC<Traits>;
-  Points points = to_cgal(oriented);
+  IndexedPoints points;
+  points.reserve(oriented.positions.size());
+  for (auto& [position, normal] : to_cgal(oriented)) points.emplace_back(position, normal, points.size());
   CGAL::get_default_random() = CGAL::Random(1);
   const Clock clock;
   Ransac ransac;
@@ -163,14 +170,15 @@ Detection efficient_ransac(const OrientedPoints& oriented, double scale) {
   parameters.cluster_epsilon = 2 * scale;
   parameters.normal_threshold = std::cos(radians(kNormalAngle));
   ransac.detect(parameters);
+  const double seconds = clock.seconds();
   Grown grown;
   grown.plane_of_point.assign(points.size(), -1);
   for (const auto& shape : ransac.planes()) {
     for (const std::size_t i : shape->indices_of_assigned_points())
-      grown.plane_of_point[i] = static_cast<int>(grown.planes.size());
+      grown.plane_of_point[std::get<2>(points[i])] = static_cast<int>(grown.planes.size());
     grown.planes.push_back(static_cast<Kernel::Plane_3>(*shape));
   }
-  return finish(grown, oriented, clock.seconds());
+  return finish(grown, oriented, seconds);
 }
 
 }  // namespace unseen::bench

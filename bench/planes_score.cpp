@@ -47,10 +47,25 @@ std::string mesh_columns(const Case& c, const Loaded& loaded, const Detection& d
                      degrees(s.as_assigned.angles.mean), 100 * s.as_assigned.angles.below_tenth);
 }
 
+/// Median distance of assigned points to their planes, in scales. Far above 1 means that the planes were
+/// turned away from their points, or that points and planes are mixed up.
+double median_distance(const Case& c, const Loaded& loaded, const Detection& d) {
+  std::vector<double> distances;
+  for (std::size_t i = 0; i < d.plane_of_point.size(); ++i)
+    if (d.plane_of_point[i] >= 0)
+      distances.push_back(std::abs(d.planes[d.plane_of_point[i]].signed_distance(loaded.cloud.positions[i])) /
+                          c.scale);
+  if (distances.empty()) return 0;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
 }  // namespace
 
 std::string csv_header() {
-  return "case,method,points,scale,seconds,normals_seconds,peak_mb,planes,assigned_percent,mean_deg,below_01_"
+  return "case,method,points,scale,seconds,normals_seconds,peak_mb,planes,assigned_percent,median_distance_"
+         "scales,mean_deg,below_01_"
          "percent,"
          "recall_percent,nearest_mean_deg,nearest_below_01_percent,nearest_recall_percent,all_mean_deg,"
          "all_below_01_percent,precision,recall_labels,f1,over,under,turned_error_deg,turned_kept_percent,"
@@ -71,15 +86,16 @@ std::string csv_row(const Case& c, const Loaded& loaded, const std::string& meth
   }
   std::vector<double> angles;
   for (const double a : c.angles) angles.push_back(radians(a));
-  return fmt::format("{},{},{},{},{:.3f},{:.3f},{:.0f},{},{:.2f},{},{},{},{},{}\n", c.name, method,
+  return fmt::format("{},{},{},{},{:.3f},{:.3f},{:.0f},{},{:.2f},{:.3f},{},{},{},{},{}\n", c.name, method,
                      d.plane_of_point.size(), c.scale, d.seconds, d.normals_seconds, peak_mb, d.planes.size(),
-                     100.0 * static_cast<double>(assigned) / count, mesh_columns(c, loaded, d), labels,
-                     turned_columns(loaded, d), planes::count_near_misses(d.planes, angles),
+                     100.0 * static_cast<double>(assigned) / count, median_distance(c, loaded, d),
+                     mesh_columns(c, loaded, d), labels, turned_columns(loaded, d),
+                     planes::count_near_misses(d.planes, angles),
                      largest_relation_error_deg < 0 ? "" : fmt::format("{:.2e}", largest_relation_error_deg));
 }
 
 std::string csv_failure(const Case& c, const std::string& method, const std::string& why) {
-  return fmt::format("{},{},,{},{},,,,,,,,,,,,,,,,,,,,,\n", c.name, method, c.scale, why);
+  return fmt::format("{},{},,{},{},,,,,,,,,,,,,,,,,,,,,,\n", c.name, method, c.scale, why);
 }
 
 }  // namespace unseen::bench
