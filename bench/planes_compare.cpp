@@ -21,6 +21,9 @@
 namespace unseen::bench {
 namespace {
 
+constexpr rlim_t kMemory =
+    rlim_t{6} << 30;  // bytes a method may take: more is a failure, not a frozen machine
+
 double peak_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -65,6 +68,8 @@ std::string in_own_process(const Case& c, const std::string& method, unsigned li
   if (child == 0) {
     close(ends[0]);
     alarm(limit);
+    const rlimit memory{kMemory, kMemory};
+    setrlimit(RLIMIT_AS, &memory);
     std::string row;
     try {
       row = body();
