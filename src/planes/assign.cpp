@@ -8,7 +8,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr int kReach = 3;  // voxels of edge ρ/2
+constexpr double kReach = 1.3;  // of the local reach
 constexpr double kLeastSine = 0.17;  // planes at less than 10° have no edge to speak of
 constexpr double kClear = 0.25;      // of the scale: what lies nearer to a plane is on neither side of it
 constexpr int kBeyondEnd = 2, kContradicted = 4;  // ranks of candidates, worse than what their normals say
@@ -22,12 +22,13 @@ struct VoxelReach {
 };
 
 /// On which side of each other candidate the supporting voxels of a candidate lie.
-std::vector<std::int8_t> sides(const Reach& reach, const VoxelGrid& grid, const std::vector<int>& plane_of_cell,
-                               std::size_t voxel, const std::vector<ReachedPlane>& candidates) {
+std::vector<std::int8_t> sides(const Reach& reach, const VoxelGrid& grid, const Cells& cells,
+                               const std::vector<int>& plane_of_cell, std::size_t voxel,
+                               const std::vector<ReachedPlane>& candidates) {
   const std::size_t k = candidates.size();
   std::vector<double> above(k * k, 0.0), below(k * k, 0.0);
   const double clear = kClear * reach.tolerance[voxel];
-  grid.for_neighbours(grid.keys[voxel], kReach, [&](int i) {
+  grid.for_neighbours(grid.keys[voxel], voxels_within(cells, grid, voxel, kReach), [&](int i) {
     for (std::size_t a = 0; a < k; ++a) {
       if (plane_of_cell[i] != candidates[a].plane) continue;
       for (std::size_t b = 0; b < k; ++b) {
@@ -81,7 +82,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
       std::vector<ReachedPlane>& list = lists[i].candidates;
       const Vec3 center = grid.center_of(grid.keys[i]);
       const double farthest = reach.tolerance[i] + 0.87 * grid.edge;
-      grid.for_neighbours(grid.keys[i], kReach, [&](int k) {
+      grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i, kReach), [&](int k) {
         const int p = plane_of_cell[k];
         if (p < 0 || std::any_of(list.begin(), list.end(), [&](const ReachedPlane& r) { return r.plane == p; })) return;
         const Plane& plane = reach.planes[p];
@@ -89,7 +90,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
         list.push_back({p, compare_normal(cells, i, plane.normal)});
       });
       std::sort(list.begin(), list.end(), [](const ReachedPlane& a, const ReachedPlane& b) { return a.plane < b.plane; });
-      if (list.size() > 1) lists[i].side = sides(reach, grid, plane_of_cell, i, list);
+      if (list.size() > 1) lists[i].side = sides(reach, grid, cells, plane_of_cell, i, list);
     }
   });
   reach.first.push_back(0);

@@ -10,6 +10,7 @@ namespace {
 
 constexpr int kLevels = 4;
 constexpr double kFlattest = 0.15;       // λ₀/λ₁ above which a neighbourhood has no reliable normal
+constexpr double kLeastReach = 1.25, kMostReach = 5.0;  // of the scale
 constexpr double kProves = 0.03;         // variation above which a normal proves nothing
 const double kCompatible = std::cos(kPi / 4);
 constexpr double kNormalError = 0.06;    // rad, largest standard error of a normal
@@ -48,10 +49,17 @@ Vec3 input_normal(const Mat3& sum, const Space& space) {
   return n.norm() > 0.5 ? Vec3(n.normalized()) : Vec3::Zero();
 }
 
+/// Twice the spacing of `count` points within `radius` of one: neighbours on a surface are hardly ever farther.
+double reach_for(double count, double radius, double scale, const Space& space) {
+  const double spacing = space.is_2d() ? 2.0 * radius / count : radius * std::sqrt(kPi / count);
+  return std::clamp(2.0 * spacing, kLeastReach * scale, kMostReach * scale);
+}
+
+double least_count(const Space& space) { return space.is_2d() ? 4 : 8; }
+
 bool reliable(const PlaneFit& fit, double count, const Space& space) {
-  const double least = space.is_2d() ? 4 : 8;
   const double spread = space.is_2d() ? fit.spread_u : fit.spread_v;
-  return count >= least && fit.rms * fit.rms <= kFlattest * spread * spread &&
+  return fit.rms * fit.rms <= kFlattest * spread * spread &&
          fit.rms <= kNormalError * spread * std::sqrt(count);
 }
 
@@ -81,6 +89,7 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
   cells.normal.assign(grid.size(), Vec3::Zero());
   cells.variation.assign(grid.size(), 1.0);
   cells.tolerance.assign(grid.size(), 2.0 * grid.edge);
+  cells.reach.assign(grid.size(), kLeastReach * 2.0 * grid.edge);
   parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3& center = grid.moments[i].mean;
@@ -88,6 +97,8 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
         const VoxelGrid& g = l == 0 ? grid : levels[l].grid;
         const VoxelKey& key = l == 0 ? grid.keys[i] : g.keys[levels[l].parent[i]];
         const Moments m = gather(g, key, center, 2.0 * g.edge);
+        if (m.count < least_count(space)) continue;
+        if (l > 0) cells.reach[i] = reach_for(m.count, 2.0 * g.edge, 2.0 * grid.edge, space);
         const PlaneFit fit = fit_plane(m, space);
         if (!reliable(fit, m.count, space)) continue;
         cells.normal[i] = fit.normal;

@@ -13,7 +13,13 @@ struct Cells {
   std::vector<Vec3> normal;       ///< unit length, sign arbitrary; zero where no orientation is reliable
   std::vector<double> variation;  ///< λ₀/(λ₀+λ₁+λ₂) of the neighbourhood, 0 = flat; 1 where there is no normal
   std::vector<double> tolerance;  ///< m, the local scale: ρ, or more with an adaptive scale
+  std::vector<double> reach;      ///< m, how far apart neighbours may be: more than the scale where sampling is sparse
 };
+
+/// Reach of a voxel in voxels, times `factor`.
+inline int voxels_within(const Cells& cells, const VoxelGrid& grid, std::size_t voxel, double factor = 1.0) {
+  return static_cast<int>(factor * cells.reach[voxel] / grid.edge);
+}
 
 /// What a voxel's normal says of a plane's: only a flat neighbourhood proves anything.
 enum class NormalVerdict : std::int8_t { agrees, unknown, contradicts };

@@ -8,8 +8,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr int kReach = 2;    // voxels of edge ρ/2
-constexpr int kRounds = 20;  // a part grows by at most this many times the scale
+constexpr int kRounds = 20;       // a part grows by at most this many times the local reach
 constexpr double kOnPlane = 0.5;  // of the scale
 
 }  // namespace
@@ -24,7 +23,7 @@ void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const
   std::vector<char> waiting(grid.size(), 0);
   std::vector<int> frontier;
   const auto wake = [&](int from) {
-    grid.for_neighbours(grid.keys[from], kReach, [&](int i) {
+    grid.for_neighbours(grid.keys[from], voxels_within(cells, grid, from), [&](int i) {
       if (part_of[i] >= 0 || waiting[i]) return;
       waiting[i] = 1;
       frontier.push_back(i);
@@ -40,7 +39,7 @@ void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const
       waiting[i] = 0;
       double nearest = kOnPlane * cells.tolerance[i];
       int to = -1;
-      grid.for_neighbours(grid.keys[i], kReach, [&](int k) {
+      grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i), [&](int k) {
         const int p = part_of[k];
         if (p < 0 || p == to) return;
         const double distance = std::abs(planes[p].signed_distance(grid.moments[i].mean));

@@ -102,8 +102,8 @@ double tilt_chi2(const Patch& patch, const Vec3& normal) {
 }
 
 double data_cost(const Patch& patch, const Vec3& normal) {
-  const double chi2 = tilt_chi2(patch, normal);
-  return chi2 * chi2 / (9.0 * (chi2 + 9.0));
+  const double x = tilt_chi2(patch, normal) / 9.0;
+  return x * x * x / (x * x + 1.0);
 }
 
 Candidate best_candidate(const Patch& patch, const OrientationFrame& frame, const std::vector<Vec3>& locals,

@@ -9,7 +9,6 @@
 namespace unseen::planes {
 namespace {
 
-constexpr int kReach = 2;            // voxels of edge ρ/2: a reach of ρ
 constexpr double kRefitGrowth = 1.3;  // the running fit is renewed when a region has grown by this factor
 
 /// True if a region is a surface, not a blob or a thread.
@@ -46,13 +45,13 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
     for (std::size_t at = 0; at < region.size(); ++at) {
       const int cell = region[at];
       const Vec3 from = grid.moments[cell].mean;
-      grid.for_neighbours(grid.keys[cell], kReach, [&](int i) {
+      grid.for_neighbours(grid.keys[cell], voxels_within(cells, grid, cell), [&](int i) {
         if (taken[i] || seen[i] == mark || cells.normal[i].isZero()) return;
         const Vec3& to = grid.moments[i].mean;
-        const double reach = cells.tolerance[i];
-        if ((to - from).squaredNorm() > 1.5625 * reach * reach) return;
+        const double reach = std::max(cells.reach[cell], cells.reach[i]);
+        if ((to - from).squaredNorm() > reach * reach) return;
         if (std::abs(cells.normal[i].dot(normal)) < cos_angle) return;
-        if (std::abs(normal.dot(to - center)) > reach) return;
+        if (std::abs(normal.dot(to - center)) > cells.tolerance[i]) return;
         seen[i] = mark;
         region.push_back(i);
         sum += grid.moments[i];

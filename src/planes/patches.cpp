@@ -45,7 +45,7 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     int patch;
     Eigen::AlignedBox3d box;
     Vec3 normal;
-    double tolerance;
+    double reach;  // m
   };
   std::vector<std::vector<Member>> members(coarse.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -53,17 +53,18 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     if (patch < 0) continue;
     auto& list = members[parent[i]];
     auto it = std::find_if(list.begin(), list.end(), [&](const Member& m) { return m.patch == patch; });
-    if (it == list.end()) it = list.insert(it, {patch, {}, cells.normal[i], cells.tolerance[i]});
+    if (it == list.end()) it = list.insert(it, {patch, {}, cells.normal[i], 0.0});
     it->box.extend(grid.moments[i].mean);
+    it->reach = std::max(it->reach, 1.6 * cells.reach[i]);
   }
   std::set<std::pair<int, int>> adjoining, neighbours;
   for (std::size_t c = 0; c < coarse.size(); ++c)
     for (const Member& a : members[c])
-      coarse.for_neighbours(coarse.keys[c], 2, [&](int o) {
+      coarse.for_neighbours(coarse.keys[c], static_cast<int>(a.reach / coarse.edge), [&](int o) {
         for (const Member& b : members[o])
-          if (a.patch < b.patch && a.box.exteriorDistance(b.box) < 2.0 * a.tolerance) {
-            adjoining.insert({a.patch, b.patch});
-            if (line_angle(a.normal, b.normal) < angle) neighbours.insert({a.patch, b.patch});
+          if (a.patch != b.patch && a.box.exteriorDistance(b.box) < a.reach) {
+            adjoining.insert(std::minmax(a.patch, b.patch));
+            if (line_angle(a.normal, b.normal) < angle) neighbours.insert(std::minmax(a.patch, b.patch));
           }
       });
   result.adjoining.assign(adjoining.begin(), adjoining.end());

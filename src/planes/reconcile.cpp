@@ -11,6 +11,7 @@ namespace {
 
 // χ² beyond which a constraint is refused: three standard errors for one, two and three degrees of freedom.
 constexpr double kSignificant[] = {0.0, 9.0, 11.8, 14.2};
+constexpr double kTypical = 3.0;  // … or, of many patches, what each may lose on average
 constexpr double kNear = 3.0 * kPi / 180.0;      // relations that fail by more are not considered
 constexpr double kWithin = 15.0 * kPi / 180.0;   // a patch never turns farther than this
 constexpr std::size_t kEarlier = 40;             // only the heaviest frames constrain others
@@ -167,7 +168,7 @@ int equivalent_group(const Problem& p, const Group& group, const std::vector<Gro
       sum += least;
       farthest = std::max(farthest, line_angle(p.patch(m).fit.normal, frame.direction(p.locals[m.local])));
     }
-    if (sum - free < limit && farthest < kWithin) return static_cast<int>(g);
+    if (sum - free < std::max(limit, kTypical * static_cast<double>(members.size())) && farthest < kWithin) return static_cast<int>(g);
   }
   return -1;
 }

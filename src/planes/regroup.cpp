@@ -16,7 +16,7 @@ constexpr double kSplitGain = 0.6;       // a split must leave less than this sh
 constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature
 constexpr double kMergeLoss = 1.2;       // a merge may raise either part's rms by this factor
 constexpr std::size_t kSplitCells = 12;  // smaller regions are left alone
-constexpr int kRimReach = 3;             // voxels: how near a larger region must be to explain one
+constexpr double kRimReach = 1.3;        // of the local reach: how near a larger region must be to explain one
 constexpr double kRimShare = 0.9;        // of a region's points that must be explained
 
 double squared_error(const Moments& m, const Space& space) {
@@ -123,9 +123,9 @@ CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& s
   }
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (region_of[i] < 0) continue;
-    grid.for_neighbours(grid.keys[i], 2, [&](int k) {
+    grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i), [&](int k) {
       if (region_of[k] < 0 || region_of[k] == region_of[i]) return;
-      if ((grid.moments[k].mean - grid.moments[i].mean).norm() > 1.25 * cells.tolerance[i]) return;
+      if ((grid.moments[k].mean - grid.moments[i].mean).norm() > cells.reach[i]) return;
       regions[region_of[i]].adjacent.insert(region_of[k]);
       regions[region_of[k]].adjacent.insert(region_of[i]);
     });
@@ -201,7 +201,7 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     double explained = 0, total = 0;
     for (const int i : regions[r]) {
       bool found = false;
-      grid.for_neighbours(grid.keys[i], kRimReach, [&](int k) {
+      grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i, kRimReach), [&](int k) {
         const int o = region_of[k];
         if (o < 0 || o == r || size[o] <= size[r]) return;
         found = found || std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];

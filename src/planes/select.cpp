@@ -66,6 +66,30 @@ std::vector<OrientationFrame> refit_used(const Patches& patches, const std::vect
   return refitted;
 }
 
+/// Where several frames offer a patch the same orientation (frames that share the up direction), the one with
+/// the most area of its own takes it: a room keeps its floor when a table shares it.
+void give_shared_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, Selection& s) {
+  const std::size_t n = patches.patches.size();
+  std::vector<std::vector<std::pair<int, int>>> offers(n);  // frame, local
+  std::vector<double> own(s.frames.size(), 0.0);
+  for (std::size_t j = 0; j < n; ++j) {
+    const Patch& patch = patches.patches[j];
+    const Vec3 has = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
+    for (std::size_t k = 0; k < s.frames.size(); ++k) {
+      const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
+      if (c.local >= 0 && line_angle(s.frames[k].direction(locals[c.local]), has) < kSameOrientation)
+        offers[j].emplace_back(static_cast<int>(k), c.local);
+    }
+    if (offers[j].size() == 1) own[s.frame_of_patch[j]] += patch.area;
+  }
+  for (std::size_t j = 0; j < n; ++j)
+    for (const auto& [k, local] : offers[j])
+      if (own[k] > own[s.frame_of_patch[j]]) {
+        s.frame_of_patch[j] = k;
+        s.local_of_patch[j] = local;
+      }
+}
+
 }  // namespace
 
 OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
@@ -203,6 +227,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       s.local_of_patch[round[i]] = best_candidate(patches.patches[round[i]], s.frames[to], locals, patch_angle).local;
     }
   }
+  give_shared_to_largest(patches, locals, patch_angle, s);
   return s;
 }
 
