@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kSystematicTilt = 0.5 * kPi / 180.0;  // rad: registration, calibration, walls out of plumb
 constexpr double kMostPoints = 30;    // noise is correlated over long distances: no patch counts for more points
+constexpr double kLargestShift = 0.15;  // of the scale, of points one standard deviation from the centre
 constexpr double kScaleShare = 0.03;  // of the scale: rims and clutter pull a patch's edge by as much
 
 /// Variance (rad²) of the tilt that a least-squares plane has along `axis`. Residuals are summed by blocks of a
@@ -84,8 +85,11 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v);
   const auto doubt = [&](double variance, double spread) {
     const double width = std::max(spread, 1e-300);
-    return std::max(variance, fit.rms * fit.rms / (kMostPoints * width * width)) + kSystematicTilt * kSystematicTilt +
-           std::pow(kScaleShare * 2.0 * grid.edge / width, 2);
+    const double scale = 2.0 * grid.edge;
+    const double noise = std::max(variance, fit.rms * fit.rms / (kMostPoints * width * width));
+    const double systematic = kSystematicTilt * kSystematicTilt + std::pow(kScaleShare * scale / width, 2);
+    // No doubt excuses a tilt that carries the patch's points out of the plane's tolerance.
+    return noise + std::min(systematic, std::pow(kLargestShift * scale / width, 2));
   };
   patch.doubt_u = doubt(patch.variance_u, fit.spread_u);
   patch.doubt_v = doubt(patch.variance_v, fit.spread_v);

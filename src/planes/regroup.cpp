@@ -198,18 +198,20 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
   CellSets kept;
   for (const int r : order) {
     context.check();
-    double explained = 0, total = 0;
+    double total = 0;
+    for (const int i : regions[r]) total += grid.moments[i].count;
+    double allowed = (1.0 - kRimShare + 1e-9) * total;  // points that may be left unexplained
     for (const int i : regions[r]) {
       bool found = false;
       grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i, kRimReach), [&](int k) {
         const int o = region_of[k];
-        if (o < 0 || o == r || size[o] <= size[r]) return;
-        found = found || std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];
+        if (found || o < 0 || o == r || size[o] <= size[r]) return;
+        found = std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];
       });
-      total += grid.moments[i].count;
-      if (found) explained += grid.moments[i].count;
+      if (!found) allowed -= grid.moments[i].count;
+      if (allowed < 0) break;
     }
-    if (explained < kRimShare * total) {
+    if (allowed < 0) {
       kept.push_back(std::move(regions[r]));
     } else {
       for (const int i : regions[r]) region_of[i] = -1;

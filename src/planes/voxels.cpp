@@ -154,10 +154,20 @@ VoxelGrid::VoxelGrid(const VoxelBuilder& builder) : edge(builder.edge()) {
 void VoxelGrid::index_blocks() {
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
     const VoxelKey& k = keys[i];
-    const auto [it, fresh] = blocks_.try_emplace(VoxelKey{k[0] >> 2, k[1] >> 2, k[2] >> 2});
-    if (fresh) it->second.first = i;
-    it->second.mask |= std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
+    const VoxelKey block = {k[0] >> 2, k[1] >> 2, k[2] >> 2};
+    if (blocks_.empty() || blocks_.back().key != block) {
+      block_of_key_.emplace(block, static_cast<std::int32_t>(blocks_.size()));
+      blocks_.push_back({block, 0, i, {}});
+    }
+    blocks_.back().mask |= std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
   }
+  for (Block& b : blocks_)
+    for (int n = 0; n < 27; ++n) b.around[n] = block_at({b.key[0] + n / 9 - 1, b.key[1] + n / 3 % 3 - 1, b.key[2] + n % 3 - 1});
+}
+
+int VoxelGrid::block_at(const VoxelKey& block_key) const {
+  const auto it = block_of_key_.find(block_key);
+  return it == block_of_key_.end() ? -1 : it->second;
 }
 
 VoxelKey VoxelGrid::key_of(const Vec3& p) const {

@@ -2,8 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <unordered_map>
 #include <vector>
 
@@ -74,38 +76,59 @@ class VoxelGrid {
 
  private:
   struct Block {
-    std::uint64_t mask = 0;  ///< which of its 64 voxels are occupied
+    VoxelKey key;             ///< voxel keys / 4, rounded down
+    std::uint64_t mask = 0;   ///< which of its 4³ voxels are occupied, x slowest
     std::uint32_t first = 0;  ///< index of its first voxel
+    std::array<std::int32_t, 27> around;  ///< the blocks beside it, −1 where there is none; itself in the middle
   };
   struct KeyHash {
     std::size_t operator()(const VoxelKey& k) const;
   };
   void index_blocks();
-  std::unordered_map<VoxelKey, Block, KeyHash> blocks_;
+  int block_at(const VoxelKey& block_key) const;
+  template <class F>
+  static void visit(const Block& block, const VoxelKey& low, const VoxelKey& high, F&& f);
+
+  std::vector<Block> blocks_;
+  std::unordered_map<VoxelKey, std::int32_t, KeyHash> block_of_key_;
 };
 
 /// Reads the source once and sums its points into voxels of the given edge (m).
 VoxelBuilder summarise(PointSource& source, double edge, const std::vector<bool>& duplicate, Context& context);
 
 template <class F>
+void VoxelGrid::visit(const Block& block, const VoxelKey& low, const VoxelKey& high, F&& f) {
+  // The part of the 4³ bits that lies in the box, axis by axis.
+  const auto range = [&](int a) {
+    return std::pair{std::max(low[a] - 4 * block.key[a], 0), std::min(high[a] - 4 * block.key[a], 3)};
+  };
+  const auto ones = [](int count) { return (std::uint64_t{1} << count) - 1; };  // count < 64
+  const auto [x0, x1] = range(0);
+  const auto [y0, y1] = range(1);
+  const auto [z0, z1] = range(2);
+  const std::uint64_t row = (ones(z1 - z0 + 1) << z0) * 0x1111u;                      // z, in four rows
+  const std::uint64_t slab = row & (ones(4 * (y1 - y0 + 1)) << (4 * y0)) & 0xffffu;    // y
+  const std::uint64_t cube = slab * 0x0001000100010001u;                              // in four slabs
+  const std::uint64_t in_x = x1 - x0 == 3 ? ~std::uint64_t{0} : ones(16 * (x1 - x0 + 1)) << (16 * x0);
+  for (std::uint64_t bits = block.mask & cube & in_x; bits != 0; bits &= bits - 1) {
+    const std::uint64_t below = (bits & -bits) - 1;
+    f(static_cast<int>(block.first + __builtin_popcountll(block.mask & below)));
+  }
+}
+
+template <class F>
 void VoxelGrid::for_neighbours(const VoxelKey& key, int reach, F&& f) const {
-  const auto floor4 = [](std::int32_t v) { return v >> 2; };
   const VoxelKey low = {key[0] - reach, key[1] - reach, key[2] - reach};
   const VoxelKey high = {key[0] + reach, key[1] + reach, key[2] + reach};
-  for (int bx = floor4(low[0]); bx <= floor4(high[0]); ++bx)
-    for (int by = floor4(low[1]); by <= floor4(high[1]); ++by)
-      for (int bz = floor4(low[2]); bz <= floor4(high[2]); ++bz) {
-        const auto it = blocks_.find({bx, by, bz});
-        if (it == blocks_.end()) continue;
-        const Block& block = it->second;
-        for (int x = std::max(low[0], 4 * bx); x <= std::min(high[0], 4 * bx + 3); ++x)
-          for (int y = std::max(low[1], 4 * by); y <= std::min(high[1], 4 * by + 3); ++y)
-            for (int z = std::max(low[2], 4 * bz); z <= std::min(high[2], 4 * bz + 3); ++z) {
-              const int bit = ((x & 3) << 4) | ((y & 3) << 2) | (z & 3);
-              if (block.mask >> bit & 1)
-                f(static_cast<int>(block.first +
-                                   __builtin_popcountll(block.mask & ((std::uint64_t{1} << bit) - 1))));
-            }
+  const VoxelKey home = {key[0] >> 2, key[1] >> 2, key[2] >> 2};
+  const int center = block_at(home);
+  for (int x = low[0] >> 2; x <= high[0] >> 2; ++x)
+    for (int y = low[1] >> 2; y <= high[1] >> 2; ++y)
+      for (int z = low[2] >> 2; z <= high[2] >> 2; ++z) {
+        const int dx = x - home[0], dy = y - home[1], dz = z - home[2];
+        const bool beside = center >= 0 && std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) <= 1;
+        const int block = beside ? blocks_[center].around[9 * (dx + 1) + 3 * (dy + 1) + dz + 1] : block_at({x, y, z});
+        if (block >= 0) visit(blocks_[block], low, high, f);
       }
 }
 
