@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// The option tables in docs/ are what the program says. UNSEEN_UPDATE_DOCS=1 in the environment writes them anew.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "unseen/io/describe.h"
+#include "unseen/planes/options.h"
+#include "unseen/planes/synth.h"
+
+namespace unseen {
+namespace {
+
+const std::string kPage = std::string(UNSEEN_SOURCE_DIR) + "/docs/planes.md";
+
+std::string page() {
+  std::ifstream in(kPage);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// Checks, or renews, what stands between <!-- options: NAME --> and <!-- end -->.
+void check_table(const std::string& name, const std::string& table) {
+  std::string text = page();
+  const std::string start = "<!-- options: " + name + " -->\n";
+  const std::size_t from = text.find(start);
+  ASSERT_NE(from, std::string::npos) << kPage << " lacks the mark " << start;
+  const std::size_t first = from + start.size(), end = text.find("<!-- end -->", first);
+  ASSERT_NE(end, std::string::npos);
+  if (std::getenv("UNSEEN_UPDATE_DOCS") != nullptr) {
+    text.replace(first, end - first, table);
+    std::ofstream(kPage) << text;
+    return;
+  }
+  EXPECT_EQ(text.substr(first, end - first), table) << "run report_tests with UNSEEN_UPDATE_DOCS=1";
+}
+
+TEST(Docs, PlanesOptionsAreThoseOfTheProgram) {
+  planes::Options options;
+  check_table("planes", markdown(planes::describe(options)));
+}
+
+TEST(Docs, ReadOptionsAreThoseOfTheProgram) {
+  io::ReadOptions options;
+  check_table("input", markdown(io::describe(options)));
+}
+
+TEST(Docs, SynthOptionsAreThoseOfTheProgram) {
+  planes::SynthOptions options;
+  check_table("synth planes", markdown(planes::describe(options)));
+}
+
+}  // namespace
+}  // namespace unseen
