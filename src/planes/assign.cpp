@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kReach = 1.3;  // of the local reach
 constexpr double kLeastSine = 0.17;  // planes at less than 10° have no edge to speak of
+constexpr double kToss = 2.0;        // times the noise: points nearer to an edge may be either plane's
 constexpr double kClear = 0.25;      // of the scale: what lies nearer to a plane is on neither side of it
 constexpr int kBeyondEnd = 2, kContradicted = 4;  // ranks of candidates, worse than what their normals say
 constexpr double kStray = 0.1;       // share of a plane that may lie on the other side all the same
@@ -74,6 +75,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
   std::vector<int> plane_of_cell(grid.size(), -1);
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     reach.planes.push_back(model.plane(model.parts[p]));
+    reach.noise.push_back(model.surfaces[model.parts[p].surface].support.fit.rms);
     for (const int i : model.parts[p].cells) plane_of_cell[i] = static_cast<int>(p);
   }
   std::vector<VoxelReach> lists(grid.size());
@@ -142,6 +144,28 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
         worst = rank;
         nearest = distance;
         plane_of_point[i] = candidate.plane;
+      }
+    }
+  });
+}
+
+void drop_near_edges(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
+                     std::span<int> plane_of_point, const Context& context) {
+  parallel_blocks(context, block.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int plane = plane_of_point[i];
+      if (plane < 0) continue;
+      const Vec3& p = block.positions[i];
+      const int voxel = grid.find(grid.key_of(p));
+      const Plane& own = reach.planes[plane];
+      for (std::uint32_t c = reach.first[voxel]; c < reach.first[voxel + 1]; ++c) {
+        const int k = reach.candidate[c].plane;
+        const Plane& other = reach.planes[k];
+        const double cosine = own.normal.dot(other.normal);
+        if (1.0 - cosine * cosine < kLeastSine * kLeastSine) continue;
+        // From the foot of the point to the line where both meet it is |d₂ − d₁ cos| / sin.
+        const double apart = std::abs(other.signed_distance(p) - own.signed_distance(p) * cosine);
+        if (apart < kToss * std::max(reach.noise[plane], reach.noise[k])) plane_of_point[i] = -1;
       }
     }
   });

@@ -22,6 +22,7 @@ struct ReachedPlane {
 /// Which planes each voxel's points can belong to, and where those end.
 struct Reach {
   std::vector<Plane> planes;
+  std::vector<double> noise;            ///< m, rms of each plane's surface
   std::vector<std::uint32_t> first;     ///< per voxel: where its candidates start; one longer than the voxels
   std::vector<ReachedPlane> candidate;  ///< by plane within a voxel
   /// Per voxel with k > 1 candidates, k×k signs from first_side: on which side of candidate b candidate a lies
@@ -41,6 +42,11 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
 /// for, then the nearest; −1 = none, or not finite.
 void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
                    const Context& context);
+
+/// Takes the plane from points near where it meets another one of their voxel, within twice the noise: whose
+/// they are is a toss-up, and a fit to those that fell to a plane is biased.
+void drop_near_edges(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
+                     std::span<int> plane_of_point, const Context& context);
 
 __extension__ using Int128 = __int128;
 

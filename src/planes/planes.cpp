@@ -127,7 +127,8 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     Stage stage(context, summary, "refit");
     const Reach reach = find_reach(model, grid, cells, use_normals, context);
     PlaneSums points(model, result.scale);
-    with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, const std::vector<int>& plane) {
+    with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
+      drop_near_edges(reach, grid, block, plane, context);
       points.add(block, plane, seen.duplicate);
     });
     std::vector<Moments> on_surface(model.surfaces.size());
