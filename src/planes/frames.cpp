@@ -103,7 +103,7 @@ double tilt_chi2(const Patch& patch, const Vec3& normal) {
 
 double data_cost(const Patch& patch, const Vec3& normal) {
   const double x = tilt_chi2(patch, normal) / 9.0;
-  return x * x * x / (x * x + 1.0);
+  return 2.0 * x * x * x / (x * x + 1.0);
 }
 
 Candidate best_candidate(const Patch& patch, const OrientationFrame& frame, const std::vector<Vec3>& locals,

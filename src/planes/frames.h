@@ -48,7 +48,7 @@ double irregularity(const OrientationFrame& a, const OrientationFrame& b, const 
 double tilt_chi2(const Patch& patch, const Vec3& normal);
 
 /// D: what it costs to give a patch the orientation `normal` (Eq. 3.7 in terms of significance): near zero
-/// within a standard error, 0.5 at three, and growing with the squared tilt beyond.
+/// within a standard error, 1 at three, and growing with the squared tilt beyond.
 double data_cost(const Patch& patch, const Vec3& normal);
 
 /// The cheapest candidate that a frame offers a patch.

@@ -13,6 +13,7 @@ namespace unseen::planes {
 namespace {
 
 constexpr std::size_t kProbes = 2000;
+constexpr double kSparsest = 3.0;  // times the typical spacing
 
 struct Sample {
   const std::vector<Vec3>& points;
@@ -49,13 +50,26 @@ std::vector<Probe> probe(const Survey& survey, const Space& space) {
   return probes;
 }
 
+/// Median over the surface rather than over the points: a probe counts for the area (2D: length) it stands for,
+/// so that a densely sampled corner does not decide for a whole scan.
 template <class F>
-double median(const std::vector<Probe>& probes, F value) {
-  std::vector<double> values;
-  for (const Probe& p : probes) values.push_back(value(p));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median(const std::vector<Probe>& probes, const Space& space, F value) {
+  std::vector<double> spacing;
+  for (const Probe& p : probes) spacing.push_back(p.sixth);
+  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
+  std::nth_element(spacing.begin(), middle, spacing.end());
+  std::vector<std::pair<double, double>> weighted;  // value, weight
+  double total = 0;
+  for (const Probe& p : probes) {
+    const double side = std::min(p.sixth, kSparsest * *middle);  // stray points stand for nothing
+    weighted.emplace_back(value(p), space.is_2d() ? side : side * side);
+    total += weighted.back().second;
+  }
+  std::sort(weighted.begin(), weighted.end());
+  double below = 0;
+  for (const auto& [v, weight] : weighted)
+    if ((below += weight) >= 0.5 * total) return v;
+  return weighted.back().first;
 }
 
 }  // namespace
@@ -71,8 +85,8 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
     const std::vector<Probe> probes = probe(survey, space);
     // Thinning a surface to a share f of its points spreads them by 1/√f, a line by 1/f.
     const double thinning = space.is_2d() ? survey.share : std::sqrt(survey.share);
-    const double spacing = thinning * median(probes, [](const Probe& p) { return p.sixth; });
-    const double noise = median(probes, [](const Probe& p) { return p.fit.rms; });
+    const double spacing = thinning * median(probes, space, [](const Probe& p) { return p.sixth; });
+    const double noise = median(probes, space, [](const Probe& p) { return p.fit.rms; });
     scale = std::clamp(std::max(1.25 * spacing, 4.0 * noise), 1e-4 * extent, 0.1 * extent);
   }
   if (!(scale <= extent))
@@ -83,7 +97,7 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
 bool normals_usable(const Survey& survey, const Space& space) {
   if (!survey.has_normals() || 2 * survey.without_normal > survey.finite) return false;
   const std::vector<Probe> probes = probe(survey, space);
-  return median(probes, [&](const Probe& p) {
+  return median(probes, space, [&](const Probe& p) {
            const Vec3 n = survey.sample_normals[p.index].cast<double>();
            return n.norm() > 0.5 ? line_angle(n, p.fit.normal) : kPi / 2;
          }) < radians(30.0);
