@@ -89,13 +89,20 @@ TEST(Cells, ACrispEdgeProvesNothingWrong) {
   EXPECT_GT(agreeing, 300u);
 }
 
-TEST(Cells, AThinLineHasNoNormalButTheInputsOwn) {
+/// A wire along x: round, so that its points do not tell a normal.
+PointCloud wire(double radius, const Vec3f& normal) {
   PointCloud cloud;
-  for (int i = 0; i < 500; ++i) {
-    cloud.positions.emplace_back(0.01 * i, 0, 0);
-    cloud.normals.emplace_back(0, 0.6f, 0.8f);
+  Random random(8);
+  for (int i = 0; i < 1000; ++i) {
+    const double a = random.uniform(0, 2 * kPi);
+    cloud.positions.emplace_back(0.005 * i, radius * std::cos(a), radius * std::sin(a));
+    cloud.normals.push_back(normal);
   }
-  VoxelGrid grid = test::grid_of(cloud, 0.05);
+  return cloud;
+}
+
+TEST(Cells, AWireHasNoNormalButTheInputsOwn) {
+  VoxelGrid grid = test::grid_of(wire(0.01, {0, 0.6f, 0.8f}), 0.05);
   const Cells with = cells_of(grid);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     EXPECT_LT(line_angle(with.normal[i], Vec3(0, 0.6, 0.8)), 1e-3);
@@ -109,14 +116,16 @@ TEST(Cells, AThinLineHasNoNormalButTheInputsOwn) {
   }
 }
 
+/// Points exactly on a line lie in every plane through it: none of these may be taken for their normal.
+TEST(Cells, AnExactLineHasNoNormal) {
+  VoxelGrid grid = test::grid_of(wire(0.0, {0, 0, 1}), 0.05);
+  grid.normals.clear();
+  for (const Vec3& n : cells_of(grid).normal) EXPECT_TRUE(n.isZero());
+}
+
 /// Zero normals in the input are none at all: not a direction that all points share.
 TEST(Cells, ZeroInputNormalsCountAsNone) {
-  PointCloud cloud;
-  for (int i = 0; i < 500; ++i) {
-    cloud.positions.emplace_back(0.01 * i, 0, 0);
-    cloud.normals.emplace_back(0, 0, 0);
-  }
-  const VoxelGrid grid = test::grid_of(cloud, 0.05);
+  const VoxelGrid grid = test::grid_of(wire(0.01, {0, 0, 0}), 0.05);
   EXPECT_TRUE(grid.normals.empty());
   for (const Vec3& n : cells_of(grid).normal) EXPECT_TRUE(n.isZero());
 }

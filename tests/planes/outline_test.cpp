@@ -91,11 +91,17 @@ TEST(Outline, SmallGapsCloseAndLargeOnesCut) {
   EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), 2.0, 0.2);  // the largest part
 }
 
-TEST(Outline, OnePointIsACellAndNoneIsNothing) {
-  EXPECT_TRUE(outline({}, Plane(), Vec3::UnitX(), kCell).empty());
-  const Polygon polygon = outline({Vec3(1, 2, 0)}, Plane(), Vec3::UnitX(), kCell);
-  ASSERT_EQ(polygon.size(), 1u);
-  EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), kCell * kCell, 1e-12);
+TEST(Outline, NoPointsNoOutline) { EXPECT_TRUE(outline({}, Plane(), Vec3::UnitX(), kCell).empty()); }
+
+/// What is a single cell wide still has an outline.
+TEST(Outline, AThinStripIsNotLost) {
+  for (const int cells : {1, 3, 40}) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < cells; ++i) points.emplace_back((i + 0.5) * kCell, 0.5 * kCell, 0);
+    const Polygon polygon = outline(points, Plane(), Vec3::UnitX(), kCell);
+    ASSERT_EQ(polygon.size(), 1u) << cells << " cells";
+    EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), cells * kCell * kCell, 0.1 * cells * kCell * kCell + kCell * kCell);
+  }
 }
 
 TEST(AreaOf, SubtractsHolesAndFollowsTheNormal) {

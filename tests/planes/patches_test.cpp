@@ -85,7 +85,7 @@ TEST(Grow, TwoPlanesBecomeTwoRegions) {
     expect_disjoint_and_sorted(regions, scene.grid.size());
     std::sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
     ASSERT_GE(regions.size(), 2u);
-    const double each = 0.4 * static_cast<double>(scene.grid.size());
+    const double each = 0.38 * static_cast<double>(scene.grid.size());
     EXPECT_GT(regions[0].size(), each);
     EXPECT_GT(regions[1].size(), each);
   }
