@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include "planes/digest.h"
+#include "planes/scenes.h"
+#include "unseen/planes/synth.h"
+
+namespace unseen::planes {
+namespace {
+
+struct Input {
+  std::string name;
+  PointCloud cloud;
+  Options options;
+  bool two_dimensional = false;
+};
+
+/// The cloud as a source that streams blocks and cannot be looked at as a whole.
+class Stream final : public PointSource {
+ public:
+  Stream(const PointCloud& cloud, bool two_dimensional, std::size_t block)
+      : cloud_(cloud), two_dimensional_(two_dimensional), block_(block) {}
+  SourceInfo info() const override {
+    SourceInfo info;
+    info.name = "stream";
+    info.has_normals = !cloud_.normals.empty();
+    info.two_dimensional = two_dimensional_;
+    return info;
+  }
+  bool next(PointCloud& block) override {
+    block = PointCloud();
+    const std::size_t end = std::min(cloud_.size(), at_ + block_);
+    for (; at_ < end; ++at_) {
+      block.positions.push_back(cloud_.positions[at_]);
+      if (!cloud_.normals.empty()) block.normals.push_back(cloud_.normals[at_]);
+    }
+    return block.size() > 0;
+  }
+  void rewind() override { at_ = 0; }
+
+ private:
+  const PointCloud& cloud_;
+  bool two_dimensional_;
+  std::size_t block_, at_ = 0;
+};
+
+PointCloud synth(const std::string& scene, int points, bool normals) {
+  SynthOptions options;
+  options.scene = scene;
+  options.points = points;
+  options.normals = normals;
+  options.outliers = 0.01;
+  Context context;
+  return make_scene(options, context).cloud;
+}
+
+Input make_input(const std::string& name) {
+  Input in{name, {}, {}};
+  if (name == "room") {
+    in.cloud = synth("room", 60'000, true);
+    in.options = test::with_scale(0.08);
+  } else if (name == "estimated") {
+    in.cloud = synth("lhouse", 20'000, false);
+  } else if (name == "angles") {
+    in.cloud = synth("lhouse", 20'000, false);
+    in.options = test::with_scale(0.2, {45});
+    in.options.adaptive_scale = true;
+  } else if (name == "floorplan") {
+    in.cloud = synth("floorplan", 8'000, false);
+    in.two_dimensional = true;
+  } else if (const auto file = test::shared_scan("rapter/lhouse_bu3.ply"); !file.empty()) {
+    in.cloud = test::read_cloud(file);
+    in.options = test::with_scale(0.0175);
+  }
+  in.cloud.labels.clear();
+  in.cloud.colors.clear();
+  return in;
+}
+
+class Determinism : public testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Inputs, Determinism, testing::Values("room", "estimated", "angles", "floorplan", "scan"),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(Determinism, SameBytesAtAnyThreadCount) {
+  const Input in = make_input(GetParam());
+  if (in.cloud.size() == 0) return;
+  const test::Run one = test::run(in.cloud, in.options, 1);
+  ASSERT_GE(one.result.planes.size(), 3u);
+  ASSERT_EQ(one.plane_of_point.size(), in.cloud.size());
+  const test::Digest expected(one.result);
+  ASSERT_GT(expected.size(), 50u);
+  for (const int threads : {2, 4}) {
+    const test::Run other = test::run(in.cloud, in.options, threads);
+    EXPECT_TRUE(test::Digest(other.result) == expected)
+        << threads << " threads differ at word " << expected.first_difference(test::Digest(other.result));
+    EXPECT_TRUE(other.plane_of_point == one.plane_of_point);
+  }
+}
+
+TEST_P(Determinism, SameBytesForShuffledInput) {
+  Input in = make_input(GetParam());
+  if (in.cloud.size() == 0) return;
+  // Some points twice, with different normals, and some that are not finite.
+  for (std::size_t i = 0; i < 50; ++i) {
+    in.cloud.positions.push_back(in.cloud.positions[37 * i]);
+    if (!in.cloud.normals.empty()) in.cloud.normals.push_back(-in.cloud.normals[11 * i]);
+  }
+  in.cloud.positions[5].y() = std::nan("");
+  const test::Run straight = test::run(in.cloud, in.options);
+  const test::Digest expected(straight.result);
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const auto order = test::shuffled(in.cloud.size(), seed);
+    const test::Run mixed = test::run(test::reordered(in.cloud, order), in.options);
+    EXPECT_TRUE(test::Digest(mixed.result) == expected)
+        << "shuffle " << seed << " differs at word " << expected.first_difference(test::Digest(mixed.result));
+    ASSERT_EQ(mixed.plane_of_point.size(), order.size());
+    std::size_t differing = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) differing += mixed.plane_of_point[i] != straight.plane_of_point[order[i]];
+    EXPECT_EQ(differing, 0u);
+  }
+}
+
+/// A stream of blocks gives what the cloud in memory gives, as long as there are no duplicates (a stream
+/// cannot find these).
+TEST_P(Determinism, SameBytesStreamed) {
+  const Input in = make_input(GetParam());
+  if (in.cloud.size() == 0) return;
+  PointCloud distinct = in.cloud;
+  CloudSource source(distinct);
+  Context context;
+  test::Run whole = test::run(source, in.options, context);
+  for (const auto& [name, count] : whole.result.summary.counts)
+    if (name == "duplicates" && count > 0) return;
+  for (const std::size_t block : {1000u, 7777u}) {
+    Stream stream(distinct, in.two_dimensional, block);
+    const test::Run streamed = test::run(stream, in.options, context);
+    EXPECT_TRUE(test::Digest(streamed.result) == test::Digest(whole.result)) << block;
+    EXPECT_TRUE(streamed.plane_of_point == whole.plane_of_point);
+  }
+}
+
+/// What the sink is told and what the planes say agree.
+TEST_P(Determinism, CountsAgreeWithTheAssignment) {
+  const Input in = make_input(GetParam());
+  if (in.cloud.size() == 0) return;
+  const test::Run r = test::run(in.cloud, in.options);
+  std::vector<std::size_t> points(r.result.planes.size());
+  std::size_t assigned = 0;
+  for (const int p : r.plane_of_point) {
+    ASSERT_TRUE(p >= -1 && p < static_cast<int>(points.size()));
+    if (p >= 0) ++points[p], ++assigned;
+  }
+  for (std::size_t p = 0; p < points.size(); ++p) EXPECT_EQ(points[p], r.result.planes[p].points);
+  for (const auto& [name, count] : r.result.summary.counts) {
+    if (name == "assigned") {
+      EXPECT_EQ(count, assigned);
+    }
+    if (name == "points") {
+      EXPECT_EQ(count, in.cloud.size());
+    }
+    if (name == "planes") {
+      EXPECT_EQ(count, points.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace unseen::planes

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <regex>
+#include <map>
+#include <sstream>
+
+#include "planes/scenes.h"
+#include "unseen/planes/synth.h"
+
+namespace unseen::planes {
+namespace {
+
+struct Stroke {
+  double length = 0, angle = 0;  ///< angle in deg in [0, 180), with y up
+};
+
+/// The straight strokes of the paths `m x,y dx,dy dx,dy …` of an SVG, whose y points down.
+std::vector<Stroke> strokes_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::regex path("[^a-z]d=\"m ([^\"]*)\"");
+  std::vector<Stroke> strokes;
+  for (auto it = std::sregex_iterator(text.begin(), text.end(), path); it != std::sregex_iterator(); ++it) {
+    std::istringstream pairs((*it)[1]);
+    std::string pair;
+    pairs >> pair;  // where it starts
+    while (pairs >> pair) {
+      const std::size_t comma = pair.find(',');
+      const double dx = std::stod(pair.substr(0, comma)), dy = -std::stod(pair.substr(comma + 1));
+      strokes.push_back({std::hypot(dx, dy), std::fmod(degrees(std::atan2(dy, dx)) + 360, 180)});
+    }
+  }
+  return strokes;
+}
+
+/// Angle (deg) between two lines given by their angles.
+double apart(double a, double b) {
+  const double d = std::fmod(std::abs(a - b), 180);
+  return std::min(d, 180 - d);
+}
+
+struct Drawn {
+  Arrangement result;
+  /// Length of the lines found within `tolerance` of an angle; `flip` = the drawing's y against the SVG's.
+  double length_at(double angle, double tolerance, bool flip) const {
+    double sum = 0;
+    for (const ArrangedPlane& p : result.planes) {
+      const Vec3 d = (*p.segment)[1] - (*p.segment)[0];
+      if (apart(degrees(std::atan2(flip ? -d.y() : d.y(), d.x())), angle) < tolerance) sum += d.norm();
+    }
+    return sum;
+  }
+};
+
+Drawn draw(const std::filesystem::path& file, const Options& options) {
+  const auto source = io::open_points(file);
+  Context context;
+  Drawn d{find_planes(*source, options, context)};
+  EXPECT_TRUE(d.result.two_dimensional);
+  std::cout << d.result.planes.size() << " lines, " << d.result.frames.size() << " frames, scale " << d.result.scale << ";";
+  for (const ArrangedPlane& p : d.result.planes) {
+    const Vec3 v = (*p.segment)[1] - (*p.segment)[0];
+    std::cout << " " << std::fmod(degrees(std::atan2(v.y(), v.x())) + 360, 180) << "/" << v.norm();
+  }
+  std::cout << "\n";
+  return d;
+}
+
+/// Every stroke of the truth has lines of its orientation within 0.3°, about as long.
+void expect_strokes(const Drawn& drawn, const std::vector<Stroke>& strokes, double tolerance) {
+  std::map<int, double> length;  // by angle, in steps of 0.5°
+  for (const Stroke& s : strokes) length[static_cast<int>(std::lround(2 * s.angle)) % 360] += s.length;
+  double missing[2] = {0, 0};
+  for (const auto& [angle, expected] : length)
+    for (const bool flip : {false, true}) missing[flip] += drawn.length_at(0.5 * angle, tolerance, flip) < 0.6 * expected;
+  EXPECT_EQ(std::min(missing[0], missing[1]), 0);
+}
+
+TEST(Drawings, TheTurnedRectangleKeepsItsOrientation) {
+  const auto file = test::shared_scan("rapter/two_rectangles.ply"), truth = test::shared_scan("rapter/two_cubes_gt.svg");
+  if (file.empty() || truth.empty()) return;
+  const std::vector<Stroke> strokes = strokes_of(truth);
+  ASSERT_EQ(strokes.size(), 8u);
+  const double turn = strokes[4].angle, across = strokes[5].angle;  // of the turned one's first two sides
+  ASSERT_NEAR(apart(turn, across), 90, 0.5);
+  ASSERT_GT(apart(turn, 0), 10);
+  const Drawn drawn = draw(file, Options());
+  double found[2];
+  for (const bool flip : {false, true}) found[flip] = std::min(drawn.length_at(turn, 0.3, flip), drawn.length_at(across, 0.3, flip));
+  EXPECT_GT(std::max(found[0], found[1]), 0.3);
+  EXPECT_GT(drawn.length_at(0, 0.3, false), 0.5);
+  EXPECT_GT(drawn.length_at(90, 0.3, false), 0.3);
+  EXPECT_EQ(drawn.result.frames.size(), 2u);
+}
+
+TEST(Drawings, TheChamferKeepsItsOrientation) {
+  const auto file = test::shared_scan("rapter/increasing-noise-0.ply"), truth = test::shared_scan("rapter/increasing-noise-0_gt.svg");
+  if (file.empty() || truth.empty()) return;
+  const std::vector<Stroke> strokes = strokes_of(truth);
+  ASSERT_EQ(strokes.size(), 5u);
+  ASSERT_NEAR(strokes[1].angle, 45, 0.1);
+  const Drawn drawn = draw(file, Options());
+  expect_strokes(drawn, strokes, 0.3);
+}
+
+TEST(Drawings, OverviewHasFourFrames) {
+  const auto file = test::shared_scan("rapter/overview_sigg2d.ply");
+  if (file.empty()) return;
+  Options options;
+  options.angles = {60, 90};
+  const Drawn drawn = draw(file, options);
+  EXPECT_EQ(drawn.result.frames.size(), 4u);
+}
+
+TEST(Drawings, AFloorplanKeepsItsTurnedFurniture) {
+  SynthOptions synth;
+  synth.scene = "floorplan";
+  synth.points = 10'000;
+  synth.turn = 12;
+  synth.share = 0.08;
+  Context context;
+  const SynthScene scene = make_scene(synth, context);
+  const test::Run r = test::run(scene.cloud, Options());
+  ASSERT_TRUE(r.result.two_dimensional);
+  std::size_t turned = 0, right = 0;
+  for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
+    const int label = scene.cloud.labels[i], plane = r.plane_of_point[i];
+    if (label < 0 || std::find(scene.turned.begin(), scene.turned.end(), label) == scene.turned.end()) continue;
+    ++turned;
+    right += plane >= 0 && line_angle(r.result.planes[plane].plane.normal, scene.planes[label].normal) < radians(0.3);
+  }
+  ASSERT_GT(turned, 500u);
+  EXPECT_GT(static_cast<double>(right), 0.9 * static_cast<double>(turned));
+}
+
+/// Points of a drawing in a plane other than z = 0 are noticed, and the lines lie in it.
+TEST(Drawings, AnyCoordinatePlaneWillDo) {
+  SynthOptions synth;
+  synth.scene = "floorplan";
+  synth.points = 5'000;
+  Context context;
+  const SynthScene scene = make_scene(synth, context);
+  const test::Run flat = test::run(scene.cloud, test::with_scale(0.05));
+  PointCloud upright;
+  for (const Vec3& p : scene.cloud.positions) upright.positions.emplace_back(7.5, p.x(), p.y());
+  const test::Run stood = test::run(upright, test::with_scale(0.05));
+  EXPECT_TRUE(stood.result.two_dimensional);
+  EXPECT_EQ(stood.result.planes.size(), flat.result.planes.size());
+  for (const ArrangedPlane& p : stood.result.planes) {
+    EXPECT_EQ(p.plane.normal.x(), 0.0);
+    ASSERT_TRUE(p.segment);
+    for (const Vec3& end : *p.segment) EXPECT_NEAR(end.x(), 7.5, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace unseen::planes

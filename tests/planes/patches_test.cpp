@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/patches.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "planes/scenes.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kScale = 0.1, kEdge = 0.05;
+const double kAngle = radians(15.0);
+
+struct Scene {
+  VoxelGrid grid;
+  Cells cells;
+  Context context;
+  Space space;
+
+  explicit Scene(const PointCloud& cloud, const Space& s = {}) : grid(test::grid_of(cloud, kEdge)), space(s) {
+    context.threads = 2;
+    cells = estimate_normals(grid, space, context);
+  }
+  CellSets grow() { return grow_regions(grid, cells, space, kAngle, context); }
+  CellSets all() const {
+    std::vector<int> every(grid.size());
+    std::iota(every.begin(), every.end(), 0);
+    return {every};
+  }
+};
+
+/// Two rectangles of 2 m × 1 m that meet along y, `angle` (deg) between their planes: 180 is one plane.
+PointCloud hinge(double angle, double noise, double gap = 0.0) {
+  PointCloud cloud;
+  Random random(1);
+  const double a = radians(angle);
+  test::add_rectangle(cloud, {-2 - gap, 0, 0}, {2, 0, 0}, {0, 1, 0}, 0.02, noise, random);
+  test::add_rectangle(cloud, {gap * std::cos(kPi - a), 0, gap * std::sin(kPi - a)},
+                      2 * Vec3(std::cos(kPi - a), 0, std::sin(kPi - a)), {0, 1, 0}, 0.02, noise, random);
+  return cloud;
+}
+
+void expect_disjoint_and_sorted(const CellSets& sets, std::size_t cells) {
+  std::set<int> seen;
+  for (const std::vector<int>& set : sets) {
+    EXPECT_TRUE(std::is_sorted(set.begin(), set.end()));
+    for (const int i : set) {
+      EXPECT_TRUE(i >= 0 && i < static_cast<int>(cells));
+      EXPECT_TRUE(seen.insert(i).second) << "voxel " << i << " is in two regions";
+    }
+  }
+}
+
+class Hinges : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Angles, Hinges, testing::Values(90.0, 120.0, 150.0, 60.0));
+
+TEST_P(Hinges, MakeTwoPatches) {
+  Scene scene(hinge(GetParam(), 0.003));
+  const Patches p = segment(scene.grid, scene.cells, scene.space, kAngle, scene.context);
+  ASSERT_EQ(p.patches.size(), 2u);
+  EXPECT_NEAR(degrees(line_angle(p.patches[0].fit.normal, p.patches[1].fit.normal)),
+              std::min(GetParam(), 180 - GetParam()), 1.0);
+  CellSets sets = {p.patches[0].cells, p.patches[1].cells};
+  expect_disjoint_and_sorted(sets, scene.grid.size());
+  for (const Patch& patch : p.patches) {
+    EXPECT_NEAR(patch.area, 2.0, 0.2);
+    EXPECT_LT(patch.fit.rms, 0.006);
+  }
+  EXPECT_EQ(p.adjoining, (std::vector<std::pair<int, int>>{{0, 1}}));
+  if (GetParam() <= 90.0) {
+    EXPECT_TRUE(p.neighbours.empty());  // their normals differ by more than τ even where they meet
+  }
+  for (std::size_t i = 0; i < scene.grid.size(); ++i)
+    for (int j = 0; j < 2; ++j)
+      EXPECT_EQ(p.patch_of_cell[i] == j, std::binary_search(sets[j].begin(), sets[j].end(), static_cast<int>(i)));
+}
+
+TEST(Grow, TwoPlanesBecomeTwoRegions) {
+  for (const double angle : {90.0, 150.0}) {
+    Scene scene(hinge(angle, 0.003));
+    CellSets regions = scene.grow();
+    expect_disjoint_and_sorted(regions, scene.grid.size());
+    std::sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    ASSERT_GE(regions.size(), 2u);
+    const double each = 0.38 * static_cast<double>(scene.grid.size());
+    EXPECT_GT(regions[0].size(), each);
+    EXPECT_GT(regions[1].size(), each);
+  }
+}
+
+/// A gap within the reach does not cut a plane, a wider one does.
+TEST(Grow, ReachesOverSmallGapsOnly) {
+  EXPECT_EQ(Scene(hinge(180, 0.003, 0.02)).grow().size(), 1u);
+  EXPECT_EQ(Scene(hinge(180, 0.003, 0.15)).grow().size(), 2u);
+}
+
+TEST(Grow, ABlobIsNoSurface) {
+  PointCloud cloud;
+  Random random(2);
+  for (int i = 0; i < 500; ++i) cloud.positions.emplace_back(0.08 * random.normal(), 0.08 * random.normal(), 0.08 * random.normal());
+  double most = 0;
+  Scene scene(cloud);
+  for (const auto& region : scene.grow()) most = std::max(most, static_cast<double>(region.size()));
+  EXPECT_LT(most, 0.2 * static_cast<double>(scene.grid.size()));
+}
+
+/// One set over an edge, as a plane that cuts the corner has it, is cut where the planes meet.
+TEST(Split, ACornerIsNotCut) {
+  for (const double angle : {90.0, 150.0}) {
+    Scene scene(hinge(angle, 0.003));
+    CellSets parts = split_regions(scene.grid, scene.space, scene.all(), scene.context);
+    expect_disjoint_and_sorted(parts, scene.grid.size());
+    std::size_t cells = 0;
+    for (const auto& part : parts) cells += part.size();
+    EXPECT_EQ(cells, scene.grid.size());
+    std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    ASSERT_GE(parts.size(), 2u);
+    for (int k = 0; k < 2; ++k) {
+      const Patch patch = make_patch(scene.grid, scene.space, parts[k]);
+      const bool flat = line_angle(patch.fit.normal, Vec3::UnitZ()) < radians(2);
+      const bool tilted = std::abs(degrees(line_angle(patch.fit.normal, Vec3::UnitZ())) - std::min(angle, 180 - angle)) < 2;
+      EXPECT_TRUE(flat || tilted) << degrees(line_angle(patch.fit.normal, Vec3::UnitZ()));
+    }
+  }
+}
+
+TEST(Split, OnePlaneStaysWhole) {
+  Scene scene(hinge(180, 0.02));
+  EXPECT_EQ(split_regions(scene.grid, scene.space, scene.all(), scene.context).size(), 1u);
+}
+
+CellSets halves(const Scene& scene) {
+  CellSets sets(2);
+  for (std::size_t i = 0; i < scene.grid.size(); ++i)
+    sets[scene.grid.moments[i].mean.x() < 0 ? 0 : 1].push_back(static_cast<int>(i));
+  return sets;
+}
+
+TEST(Merge, HalvesOfOnePlaneJoinAndHingesDoNot) {
+  Scene flat(hinge(180, 0.005));
+  EXPECT_EQ(merge_regions(flat.grid, flat.cells, flat.space, kAngle, halves(flat), flat.context).size(), 1u);
+  for (const double angle : {90.0, 150.0, 170.0}) {
+    Scene bent(hinge(angle, 0.005));
+    EXPECT_EQ(merge_regions(bent.grid, bent.cells, bent.space, kAngle, halves(bent), bent.context).size(), 2u);
+  }
+}
+
+TEST(Merge, ParallelStepsStayApart) {
+  PointCloud cloud;
+  Random random(3);
+  test::add_rectangle(cloud, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.02, 0.003, random);
+  test::add_rectangle(cloud, {1, 0, 0.08}, {1, 0, 0}, {0, 1, 0}, 0.02, 0.003, random);
+  Scene scene(cloud);
+  CellSets sets(2);
+  for (std::size_t i = 0; i < scene.grid.size(); ++i)
+    sets[scene.grid.moments[i].mean.x() < 1 ? 0 : 1].push_back(static_cast<int>(i));
+  EXPECT_EQ(merge_regions(scene.grid, scene.cells, scene.space, kAngle, sets, scene.context).size(), 2u);
+}
+
+/// A strip that bevels an edge by less than the scale is the edge; a shelf beside a wall is not.
+TEST(DropRims, RimsGoAndStructuresStay) {
+  PointCloud cloud;
+  Random random(4);
+  test::add_rectangle(cloud, {0.05, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.02, 0.0, random);
+  test::add_rectangle(cloud, {0, 0, 0.05}, {0, 0, 1}, {0, 1, 0}, 0.02, 0.0, random);
+  test::add_rectangle(cloud, {0.05, 0, 0}, {-0.05, 0, 0.05}, {0, 1, 0}, 0.01, 0.0, random);
+  test::add_rectangle(cloud, {0, 0, 1.0}, {0.4, 0, 0}, {0, 1, 0}, 0.02, 0.0, random);
+  Scene scene(cloud);
+  CellSets sets(4);  // floor, wall, bevel, shelf
+  for (std::size_t i = 0; i < scene.grid.size(); ++i) {
+    const Vec3& p = scene.grid.moments[i].mean;
+    const int set = p.z() > 0.98 ? 3 : p.x() < 0.06 && p.z() < 0.06 ? 2 : p.x() < 0.02 ? 1 : 0;
+    sets[set].push_back(static_cast<int>(i));
+  }
+  for (const auto& set : sets) ASSERT_GT(set.size(), 10u);
+  const std::vector<int> bevel = sets[2];
+  const CellSets kept = drop_rims(scene.grid, scene.cells, scene.space, sets, scene.context);
+  EXPECT_EQ(kept.size(), 3u);
+  EXPECT_TRUE(std::find(kept.begin(), kept.end(), bevel) == kept.end());
+}
+
+/// The stated variance of a tilt against the scatter of fits over many draws of the same noise.
+TEST(MakePatch, TiltVarianceIsThatOfRepeatedScans) {
+  double observed_u = 0, observed_v = 0, stated_u = 0, stated_v = 0;
+  constexpr int kDraws = 60;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    PointCloud cloud;
+    Random random(100 + draw);
+    test::add_rectangle(cloud, {0, 0, 0.025}, {2, 0, 0}, {0, 0.8, 0}, 0.04, 0.004, random);
+    const VoxelGrid grid = test::grid_of(cloud, kEdge);
+    std::vector<int> all(grid.size());
+    std::iota(all.begin(), all.end(), 0);
+    const Patch patch = make_patch(grid, {}, all);
+    EXPECT_NEAR(patch.area, 1.6, 0.1);
+    observed_u += std::pow(patch.fit.normal.x(), 2) / kDraws;
+    observed_v += std::pow(patch.fit.normal.y(), 2) / kDraws;
+    stated_u += patch.variance_u / kDraws;
+    stated_v += patch.variance_v / kDraws;
+    EXPECT_GE(patch.doubt_u, patch.variance_u);
+    EXPECT_GE(patch.doubt_v, patch.variance_v);
+  }
+  EXPECT_GT(stated_u / observed_u, 0.6);
+  EXPECT_LT(stated_u / observed_u, 2.0);
+  EXPECT_GT(stated_v / observed_v, 0.6);
+  EXPECT_LT(stated_v / observed_v, 2.0);
+}
+
+}  // namespace
+}  // namespace unseen::planes

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include "planes/scale.h"
+#include "planes/scenes.h"
+#include "unseen/core/error.h"
+
+namespace unseen::planes {
+namespace {
+
+Survey look_at(const PointCloud& cloud) {
+  CloudSource source(cloud);
+  Context context;
+  return survey(source, context);
+}
+
+PointCloud scattered(std::size_t count, std::uint64_t seed) {
+  PointCloud cloud;
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i)
+    cloud.positions.emplace_back(random.uniform(-1, 3), random.uniform(0, 2), random.uniform(0, 1));
+  return cloud;
+}
+
+TEST(Survey, CountsWhatItSees) {
+  PointCloud cloud = scattered(100, 1);
+  cloud.normals.assign(100, Vec3f(0, 0, 1));
+  cloud.normals[3].setZero();
+  cloud.normals[4].setConstant(std::nanf(""));
+  cloud.positions[7].x() = std::nan("");
+  cloud.positions[8] = {-5, 6, 0.5};
+  const Survey s = look_at(cloud);
+  EXPECT_EQ(s.points, 100u);
+  EXPECT_EQ(s.finite, 99u);
+  EXPECT_EQ(s.duplicates, 0u);
+  EXPECT_EQ(s.without_normal, 2u);
+  EXPECT_EQ(s.low.x(), -5);
+  EXPECT_EQ(s.high.y(), 6);
+  EXPECT_EQ(s.sample.size(), 99u);
+  EXPECT_EQ(s.share, 1.0);
+}
+
+TEST(Survey, OneOfEachGroupOfTwinsStays) {
+  PointCloud cloud = scattered(50, 2);
+  cloud.positions[10] = cloud.positions[40] = cloud.positions[20];
+  cloud.positions[30] = {0.0, 1.0, 0.0};
+  cloud.positions[31] = {-0.0, 1.0, -0.0};  // the same place
+  const Survey s = look_at(cloud);
+  EXPECT_EQ(s.duplicates, 3u);
+  ASSERT_EQ(s.duplicate.size(), 50u);
+  EXPECT_EQ(s.duplicate[10] + s.duplicate[20] + s.duplicate[40], 2);
+  EXPECT_EQ(s.duplicate[30] + s.duplicate[31], 1);
+  EXPECT_EQ(std::count(s.duplicate.begin(), s.duplicate.end(), true), 3);
+  EXPECT_EQ(s.sample.size(), 47u);
+}
+
+/// Which twin stays shows in its normal: it must be the same one in any order.
+TEST(Survey, TheTwinThatStaysDoesNotDependOnTheOrder) {
+  PointCloud cloud = scattered(60, 3);
+  for (std::size_t i = 0; i < 60; ++i) cloud.normals.push_back(Random(i + 1).direction().cast<float>());
+  for (std::size_t i = 0; i < 20; ++i) cloud.positions[3 * i + 1] = cloud.positions[3 * i + 2] = cloud.positions[3 * i];
+  const auto stay = [](const PointCloud& c) {
+    const Survey s = look_at(c);
+    std::vector<std::array<float, 3>> normals;
+    for (std::size_t i = 0; i < c.size(); ++i)
+      if (!s.duplicate[i]) normals.push_back({c.normals[i].x(), c.normals[i].y(), c.normals[i].z()});
+    std::sort(normals.begin(), normals.end());
+    return normals;
+  };
+  const auto expected = stay(cloud);
+  EXPECT_EQ(expected.size(), 20u);
+  for (const std::uint64_t seed : {1u, 2u, 3u})
+    EXPECT_EQ(stay(test::reordered(cloud, test::shuffled(60, seed))), expected);
+}
+
+TEST(Survey, SampleIsBoundedEvenAndIndependentOfTheOrder) {
+  const PointCloud cloud = scattered(700'000, 4);
+  const Survey s = look_at(cloud);
+  EXPECT_LE(s.sample.size(), 300'000u);
+  EXPECT_GT(s.sample.size(), 100'000u);
+  EXPECT_NEAR(s.share, s.sample.size() / 700'000.0, 1e-12);
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : s.sample) mean += p / static_cast<double>(s.sample.size());
+  EXPECT_LT((mean - Vec3(1, 1, 0.5)).norm(), 0.01);
+  const Survey t = look_at(test::reordered(cloud, test::shuffled(cloud.size(), 5)));
+  EXPECT_TRUE(s.sample == t.sample);
+}
+
+TEST(Survey, WithoutAFinitePointIsAnError) {
+  PointCloud none;
+  EXPECT_THROW(look_at(none), InputError);
+  none.positions.assign(5, Vec3::Constant(std::nan("")));
+  EXPECT_THROW(look_at(none), InputError);
+}
+
+TEST(SpaceOf, NoticesDrawingsInEachCoordinatePlane) {
+  for (int axis = 0; axis < 3; ++axis) {
+    PointCloud cloud = scattered(100, 6);
+    for (Vec3& p : cloud.positions) p[axis] = 12.5;
+    const Space space = space_of(look_at(cloud), false);
+    ASSERT_TRUE(space.is_2d());
+    EXPECT_EQ(*space.flat_axis, Vec3::Unit(axis));
+    cloud.positions[50][axis] += 1e-6;
+    EXPECT_FALSE(space_of(look_at(cloud), false).is_2d());
+  }
+  EXPECT_EQ(*space_of(look_at(scattered(10, 7)), true).flat_axis, Vec3(Vec3::UnitZ()));
+}
+
+/// A line along an axis is flat in two coordinates; it is no drawing.
+TEST(SpaceOf, ALineIsNoDrawing) {
+  PointCloud cloud = scattered(100, 8);
+  for (Vec3& p : cloud.positions) p.y() = p.z() = 0;
+  EXPECT_FALSE(space_of(look_at(cloud), false).is_2d());
+}
+
+PointCloud plane_cloud(double spacing, double noise) {
+  PointCloud cloud;
+  Random random(9);
+  test::add_rectangle(cloud, {0, 0, 0}, {2, 0, 0.4}, {0, 1.6, 0}, spacing, noise, random);
+  return cloud;
+}
+
+double estimate(const PointCloud& cloud) {
+  const Survey s = look_at(cloud);
+  return choose_scale(s, space_of(s, false), Options());
+}
+
+TEST(ChooseScale, FollowsTheSpacing) {
+  for (const double spacing : {0.01, 0.02, 0.04}) {
+    // The sixth neighbour of a grid of one point per spacing² lies at about √(6/π) spacings.
+    const double expected = 1.25 * std::sqrt(6 / kPi) * spacing;
+    const double scale = estimate(plane_cloud(spacing, 0.0));
+    EXPECT_GT(scale, 0.8 * expected);
+    EXPECT_LT(scale, 1.2 * expected);
+  }
+}
+
+TEST(ChooseScale, FollowsTheNoiseWhereThatIsLarger) {
+  const double scale = estimate(plane_cloud(0.02, 0.015));
+  EXPECT_GT(scale, 2.0 * 0.015);
+  EXPECT_LT(scale, 5.0 * 0.015);
+}
+
+/// Thinning to a sample must not coarsen the estimate.
+TEST(ChooseScale, IsThatOfTheWholeCloud) {
+  const PointCloud cloud = plane_cloud(0.0023, 0.0);  // 600 000 points
+  ASSERT_LT(look_at(cloud).share, 0.6);
+  const double expected = 1.25 * std::sqrt(6 / kPi) * 0.0023;
+  EXPECT_NEAR(estimate(cloud), expected, 0.2 * expected);
+}
+
+TEST(ChooseScale, TakesWhatItIsTold) {
+  const Survey s = look_at(plane_cloud(0.02, 0.0));
+  Options options;
+  options.relative_scale = 0.05;
+  EXPECT_NEAR(choose_scale(s, {}, options), 0.05 * s.extent(), 1e-12);
+  options.relative_scale.reset();
+  options.scale = 0.123;
+  EXPECT_EQ(choose_scale(s, {}, options), 0.123);
+  options.scale = 5.0;
+  EXPECT_THROW(choose_scale(s, {}, options), InputError);
+}
+
+TEST(NormalsUsable, OnlyIfTheyAgreeWithTheSurface) {
+  PointCloud cloud = plane_cloud(0.02, 0.001);
+  const auto usable = [&] {
+    const Survey s = look_at(cloud);
+    return normals_usable(s, {});
+  };
+  EXPECT_FALSE(usable());  // there are none
+  const Vec3f n = Vec3f(-0.4f, 0, 2).normalized();
+  cloud.normals.assign(cloud.size(), n);
+  for (std::size_t i = 0; i < cloud.size(); i += 2) cloud.normals[i] *= -1;  // the sign says nothing
+  EXPECT_TRUE(usable());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (i % 10 < 6) cloud.normals[i].setZero();
+  EXPECT_FALSE(usable());
+  Random random(10);
+  for (Vec3f& m : cloud.normals) m = random.direction().cast<float>();
+  EXPECT_FALSE(usable());
+}
+
+}  // namespace
+}  // namespace unseen::planes
