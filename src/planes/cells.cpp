@@ -59,7 +59,7 @@ double least_count(const Space& space) { return space.is_2d() ? 4 : 8; }
 
 bool reliable(const PlaneFit& fit, double count, const Space& space) {
   const double spread = space.is_2d() ? fit.spread_u : fit.spread_v;
-  return fit.rms * fit.rms <= kFlattest * spread * spread &&
+  return spread > 1e-6 * fit.spread_u && fit.rms * fit.rms <= kFlattest * spread * spread &&
          fit.rms <= kNormalError * spread * std::sqrt(count);
 }
 

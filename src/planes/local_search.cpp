@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "planes/selection.h"
+#include "unseen/core/random.h"
 
 namespace unseen::planes {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr double kImpossible = 1e4;  // stands for an infinite cost, so that differences stay numbers
 constexpr int kSubsetFrames = 8;    // all subsets of this many frames are tried …
 constexpr int kSubsetPatches = 80;  // … for problems up to this size
+constexpr int kShakes = 12;         // random starts
 constexpr std::size_t kSwaps = 24;  // frames that may replace another, the most promising ones
 
 /// A problem with what the search asks for again and again.
@@ -321,10 +323,21 @@ Labels solve_local(const SelectionProblem& problem, const Context& context, cons
     attempt(std::move(open));
   }
   if (problem.patches() > kSubsetPatches) return best.labels;
-  // Other starts: from each of the frames that would be best alone.
+  // Other starts: from each of the frames that would be best alone, and from what is best so far, shaken.
   for (const int k : search.promising(fixed, 3)) {
     std::vector<int> open = fixed;
     open.push_back(k);
+    attempt(std::move(open));
+  }
+  Random random(1);
+  for (int shake = 0; shake < kShakes; ++shake) {
+    std::vector<int> open = fixed;
+    for (const int k : best.open)
+      if (!problem.fixed[k] && random.uniform() < 0.5) open.push_back(k);
+    for (int add = 0; add < 3; ++add) {
+      const int k = static_cast<int>(random.index(problem.frames()));
+      if (std::find(open.begin(), open.end(), k) == open.end()) open.push_back(k);
+    }
     attempt(std::move(open));
   }
   return search.improve(search.all_subsets(best)).labels;

@@ -213,7 +213,7 @@ Polygon outline(const std::vector<Vec3>& points, const Plane& plane, const Vec3&
   Polygon polygon;
   for (const Ring& ring : rings) {
     if (!polygon.empty() && twice_area(ring) > -2.0 * 12) continue;  // holes of less than 12 cells are gaps
-    const Ring corners = simplified(ring, 1.0);
+    const Ring corners = simplified(ring, 0.75);
     if (corners.size() < 3) continue;
     std::vector<Vec3> loop;
     for (const Corner& c : corners)

@@ -30,18 +30,16 @@ std::optional<Vec3> viewpoint_of(const Options& options, const SourceInfo& info)
 }
 
 void check_distinct(const Survey& survey, const std::string& name) {
-  if (survey.low == survey.high)
-    throw InputError(name, "points", "1 distinct", "at least three that are not in a line");
+  const std::size_t distinct = survey.low == survey.high ? 1 : survey.finite - survey.duplicates;
+  if (distinct < 3)
+    throw InputError(name, "points", fmt::format("{} distinct", distinct), "at least three that are not in a line");
 }
 
 /// A line of points lies in infinitely many planes: there is no right answer.
-void check_not_collinear(const VoxelGrid& grid, const Space& space, const Survey& survey, const std::string& name) {
+void check_not_collinear(const VoxelGrid& grid, const Space& space, const std::string& name) {
   Moments all;
   for (const Moments& m : grid.moments) all += m;
   const PlaneFit fit = fit_plane(all, space);
-  if (survey.finite - survey.duplicates < (space.is_2d() ? 2u : 3u) || !(fit.spread_u > 0))
-    throw InputError(name, "points", fmt::format("{} distinct", survey.finite - survey.duplicates),
-                     "at least three that are not in a line");
   if (!space.is_2d() && fit.spread_v < 1e-6 * fit.spread_u)
     throw InputError(name, "points", "all in one line", "points on surfaces");
 }
@@ -97,7 +95,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   {
     Stage stage(context, summary, "voxels");
     grid = VoxelGrid(summarise(source, 0.5 * result.scale, seen.duplicate, context));
-    check_not_collinear(grid, space, seen, info.name);
+    check_not_collinear(grid, space, info.name);
     if (!use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());
   }
@@ -158,6 +156,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   find_relations(angles, result);
   find_second_order(result);
   tag_planes(result);
+  context.check();
   summary.counts.emplace_back("frames", result.frames.size());
   summary.counts.emplace_back("relations", result.relations.size());
   if (result.planes.empty()) summary.status = Status::infeasible;

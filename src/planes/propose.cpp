@@ -51,9 +51,9 @@ bool same(const OrientationFrame& a, const OrientationFrame& b) {
 
 std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::vector<int>& members,
                                              const std::vector<OrientationFrame>& given, const AngleSet& angles,
-                                             const Space& space, double lambda, double patch_angle) {
-  std::vector<Direction> directions = cluster_normals(patches, members, lambda < 1.0 ? kCluster : 0.0);
-  if (directions.size() > kDirections && lambda < 1.0) directions.resize(kDirections);
+                                             const Space& space, double patch_angle) {
+  std::vector<Direction> directions = cluster_normals(patches, members, kCluster);
+  if (directions.size() > kDirections) directions.resize(kDirections);
   std::vector<OrientationFrame> frames;
   for (const Direction& d : directions) frames.push_back(open_frame(d.normal, space));
   if (space.is_2d()) return frames;

@@ -130,7 +130,7 @@ bool independent(const std::vector<Constraint>& rows, const OrientationFrame& fr
   for (const Constraint& c : rows) {
     Vec3 j = residual_of(c, frame.axes, earlier[c.b].axes).jacobian;
     for (const Vec3& b : basis) j -= j.dot(b) * b;
-    if (j.norm() < 0.1) return false;
+    if (j.norm() < 0.35) return false;
     basis.push_back(j.normalized());
   }
   return true;
@@ -179,6 +179,12 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
                      const AngleSet& angles, const Space& space) {
   const Problem p{patches, locals, angles, space};
   Reconciled result;
+  if (selection.local_fits) {
+    result.frames = selection.frames;
+    result.frame_of_patch = selection.frame_of_patch;
+    result.local_of_patch = selection.local_of_patch;
+    return result;
+  }
   std::vector<Group> nodes;
   for (Group& group : groups_of(p, selection)) {
     group.frame = fit_constrained(p, group.frame, group.members, {}, {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,8 @@
 namespace unseen::planes {
 namespace {
 
+constexpr int kIterations = 20;
+constexpr double kFarthest = 1.5 * kPi / 180.0;  // rad: a refit that turns a frame farther went astray
 constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no surface is known better than this
 
 }  // namespace
@@ -34,40 +37,107 @@ Mat3 turned(const Mat3& axes, const Vec3& w) {
   return result;
 }
 
-void refit(Model& model) {
-  const int turns = 3 * static_cast<int>(model.frames.size());
-  const int total = turns + static_cast<int>(model.constraints.size());
-  for (int iteration = 0; iteration < 20 && turns > 0; ++iteration) {
-    // Gauss–Newton with Lagrange multipliers: [H Jᵀ; J 0] [w; μ] = [−g; −c].
-    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(total, total);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(total);
-    double largest = 0;
-    for (const Surface& surface : model.surfaces) {
-      const Patch& s = surface.support;
-      for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), s.variance_u + kFloor * kFloor,
-                                                  s.variance_v + kFloor * kFloor)) {
-        const int at = 3 * surface.frame;
-        system.block<3, 3>(at, at) += r.weight * r.jacobian * r.jacobian.transpose();
-        right.segment<3>(at) -= r.weight * r.value * r.jacobian;
-        largest = std::max(largest, r.weight);
+namespace {
+
+/// Normal equations of the turns, a 3×3 block a frame.
+struct Turns {
+  std::vector<Mat3> information;
+  std::vector<Vec3> gradient;
+  double largest = 0;  // weight
+};
+
+Turns turns_of(const Model& model) {
+  Turns t{std::vector<Mat3>(model.frames.size(), Mat3::Zero()), std::vector<Vec3>(model.frames.size(), Vec3::Zero()), 0.0};
+  for (const Surface& surface : model.surfaces) {
+    const Patch& s = surface.support;
+    for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), s.variance_u + kFloor * kFloor,
+                                                s.variance_v + kFloor * kFloor)) {
+      t.information[surface.frame] += r.weight * r.jacobian * r.jacobian.transpose();
+      t.gradient[surface.frame] += r.weight * r.value * r.jacobian;
+      t.largest = std::max(t.largest, r.weight);
+    }
+  }
+  // What no surface determines stays where it is.
+  for (Mat3& i : t.information) i.diagonal().array() += 1e-9 * t.largest;
+  return t;
+}
+
+/// One step of Gauss–Newton with Lagrange multipliers: [H Jᵀ; J 0] [w; μ] = [−g; −c], over the frames that
+/// constraints tie together; the others turn on their own.
+std::vector<Vec3> step_of(const Model& model, const Turns& t) {
+  std::vector<int> column(model.frames.size(), -1);
+  int columns = 0;
+  for (const Constraint& c : model.constraints)
+    for (const int f : {c.a, c.b})
+      if (column[f] < 0) {
+        column[f] = columns;
+        columns += 3;
       }
+  const int total = columns + static_cast<int>(model.constraints.size());
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(total, total);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(total);
+  for (std::size_t f = 0; f < model.frames.size(); ++f) {
+    if (column[f] < 0) continue;
+    system.block<3, 3>(column[f], column[f]) = t.information[f];
+    right.segment<3>(column[f]) = -t.gradient[f];
+  }
+  for (std::size_t i = 0; i < model.constraints.size(); ++i) {
+    const Constraint& c = model.constraints[i];
+    const ConstraintResidual r = residual_of(c, model.frames[c.a].axes, model.frames[c.b].axes);
+    const int row = columns + static_cast<int>(i);
+    // Scaled so that multipliers are of the size of the turns.
+    system.block<1, 3>(row, column[c.a]) = t.largest * r.jacobian.transpose();
+    system.block<1, 3>(row, column[c.b]) = -t.largest * r.jacobian.transpose();
+    right[row] = -t.largest * r.value;
+  }
+  system.topRightCorner(columns, total - columns) = system.bottomLeftCorner(total - columns, columns).transpose();
+  const Eigen::VectorXd solution = total > 0 ? Eigen::VectorXd(system.partialPivLu().solve(right)) : right;
+  std::vector<Vec3> step;
+  for (std::size_t f = 0; f < model.frames.size(); ++f)
+    step.push_back(column[f] >= 0 ? Vec3(solution.segment<3>(column[f]))
+                                  : Vec3(-t.information[f].ldlt().solve(t.gradient[f])));
+  return step;
+}
+
+/// The constrained frame that turned farthest, if any turned farther than relations may ask or if one of its
+/// relations does not hold; else −1.
+int failing_frame(const Model& model, const std::vector<OrientationFrame>& start) {
+  double worst = 0;
+  int culprit = -1;
+  for (const Constraint& c : model.constraints) {
+    const double residual = std::abs(residual_of(c, model.frames[c.a].axes, model.frames[c.b].axes).value);
+    for (const int f : {c.a, c.b}) {
+      const double turn = Eigen::AngleAxisd(Mat3(model.frames[f].axes * start[f].axes.transpose())).angle();
+      if (residual < 1e-10 && turn < kFarthest) continue;
+      const double badness = std::isfinite(turn + residual) ? turn + residual : 1e9 + f;
+      if (badness <= worst) continue;
+      worst = badness;
+      culprit = f;
     }
-    // What no surface determines stays where it is.
-    system.diagonal().head(turns).array() += 1e-9 * largest;
-    for (std::size_t i = 0; i < model.constraints.size(); ++i) {
-      const Constraint& c = model.constraints[i];
-      const ConstraintResidual r = residual_of(c, model.frames[c.a].axes, model.frames[c.b].axes);
-      const int row = turns + static_cast<int>(i);
-      // Scaled so that multipliers are of the size of the turns.
-      system.block<1, 3>(row, 3 * c.a) = largest * r.jacobian.transpose();
-      system.block<1, 3>(row, 3 * c.b) = -largest * r.jacobian.transpose();
-      right[row] = -largest * r.value;
+  }
+  return culprit;
+}
+
+}  // namespace
+
+void refit(Model& model) {
+  if (model.surfaces.empty()) return;
+  const std::vector<OrientationFrame> start = model.frames;
+  while (true) {
+    for (int iteration = 0; iteration < kIterations; ++iteration) {
+      const std::vector<Vec3> step = step_of(model, turns_of(model));
+      double farthest = 0;
+      for (std::size_t f = 0; f < model.frames.size(); ++f) {
+        model.frames[f].axes = turned(model.frames[f].axes, step[f]);
+        farthest = std::max(farthest, step[f].norm());
+      }
+      if (farthest < 1e-14 || !(farthest < kPi)) break;
     }
-    system.topRightCorner(turns, total - turns) = system.bottomLeftCorner(total - turns, turns).transpose();
-    const Eigen::VectorXd step = system.partialPivLu().solve(right);
-    for (std::size_t f = 0; f < model.frames.size(); ++f)
-      model.frames[f].axes = turned(model.frames[f].axes, step.segment<3>(3 * static_cast<int>(f)));
-    if (step.head(turns).norm() < 1e-14) break;
+    const int culprit = failing_frame(model, start);
+    if (culprit < 0) break;
+    // Relations that cannot all hold at once: the frame that suffers most gives up its own.
+    std::erase_if(model.constraints, [&](const Constraint& c) { return c.a == culprit || c.b == culprit; });
+    model.frames = start;
   }
   for (Surface& s : model.surfaces) s.offset = model.normal(s).dot(s.support.moments.mean);
 }

@@ -89,6 +89,8 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
     const double noise = median(probes, space, [](const Probe& p) { return p.fit.rms; });
     scale = std::clamp(std::max(1.25 * spacing, 4.0 * noise), 1e-4 * extent, 0.1 * extent);
   }
+  if (!(scale > 0))
+    throw InputError("", "scale", fmt::format("{} m", scale), "more than 0");
   if (!(scale <= extent))
     throw InputError("", "scale", fmt::format("{} m", scale), fmt::format("less than the scene's extent, {:.6g} m", extent));
   return scale;

@@ -164,6 +164,15 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
   s.local_of_patch.assign(patches.patches.size(), -1);
   s.before = keep_local_fits(patches, angles, space, locals, lambda);
 
+  if (lambda == 1.0) {
+    s.local_fits = true;
+    for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+      s.frames.push_back(open_frame(patches.patches[j].fit.normal, space));
+      s.frame_of_patch[j] = static_cast<int>(j);
+      s.local_of_patch[j] = 0;
+    }
+    return s;
+  }
   std::size_t done = 0;
   for (const std::vector<int>& round : rounds_by_area(patches)) {
     context.progress(static_cast<double>(done) / patches.patches.size());
@@ -174,10 +183,10 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       double least = std::numeric_limits<double>::infinity();
       for (const OrientationFrame& f : s.frames)
         least = std::min(least, best_candidate(patches.patches[j], f, locals, patch_angle).cost);
-      if (!(least < kExplained) || lambda == 1.0) unexplained.push_back(j);
+      if (!(least < kExplained)) unexplained.push_back(j);
     }
     std::vector<OrientationFrame> frames = s.frames;
-    for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, lambda, patch_angle))
+    for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle))
       frames.push_back(std::move(f));
     const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
       return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle);

@@ -15,6 +15,7 @@ struct Selection {
   Energy before, after;  ///< of every local fit kept, and of this selection
   double bound = 0;      ///< no selection from the same candidates, round by round, has less energy
   bool time_limit = false;
+  bool local_fits = false;  ///< λ = 1: every patch keeps its own fit, related to no other
 };
 
 /// Frames that a set of patches may have, beside those given: single directions from clusters of patch
@@ -22,7 +23,7 @@ struct Selection {
 /// `members` are the patches that may generate, the largest first.
 std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::vector<int>& members,
                                              const std::vector<OrientationFrame>& given, const AngleSet& angles,
-                                             const Space& space, double lambda, double patch_angle);
+                                             const Space& space, double patch_angle);
 
 /// Least-squares rotation of a frame to patches that have given directions of it, each weighted by its own
 /// fit's variance. An open frame, or one with members of a single direction, turns as little as it must.

@@ -88,7 +88,7 @@ TEST_P(RealisticProblems, AreSolvedWithinOnePercentOfCbc) {
   const AngleSet angles = make_angles({radians(90)});
   const std::vector<Vec3> locals = local_directions(angles, {});
   std::vector<OrientationFrame> frames;
-  for (OrientationFrame& f : propose_frames(patches, members, {}, angles, {}, 0.5, radians(15)))
+  for (OrientationFrame& f : propose_frames(patches, members, {}, angles, {}, radians(15)))
     if (f.closed && frames.size() < 12) frames.push_back(std::move(f));
   ASSERT_GE(frames.size(), 3u);
   for (const int j : members) frames.push_back(open_frame(patches.patches[j].fit.normal, {}));
