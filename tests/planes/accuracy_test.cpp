@@ -34,10 +34,11 @@ std::optional<Measured> measure(const std::string& scan, const std::string& trut
   const TruthScore s = evaluate_against_mesh(cloud.positions, r.plane_of_point, planes, io::read_mesh(mesh),
                                              {*options.scale, 500'000, 1}, context);
   const AngleScore& a = s.as_assigned.angles_recalled;
-  std::cout << scan << ": recalled mean " << degrees(a.mean) << " deg, " << 100 * a.below_tenth << " % below 0.1; all mean "
-            << degrees(s.as_assigned.angles.mean) << ", " << 100 * s.as_assigned.angles.below_tenth << " %; recall "
-            << 100 * s.as_assigned.recall << " % (" << 100 * s.nearest.recall << " % nearest), " << planes.size()
-            << " planes, " << elapsed.count() << " s\n";
+  std::cout << scan << ": recalled mean " << degrees(a.mean) << " deg, " << 100 * a.below_tenth
+            << " % below 0.1; all mean " << degrees(s.as_assigned.angles.mean) << ", "
+            << 100 * s.as_assigned.angles.below_tenth << " %; recall " << 100 * s.as_assigned.recall << " % ("
+            << 100 * s.nearest.recall << " % nearest), " << planes.size() << " planes, " << elapsed.count()
+            << " s\n";
   return Measured{s.as_assigned, elapsed.count(), std::move(r.result)};
 }
 
@@ -96,13 +97,15 @@ struct Turned {
 
 class TurnedFurniture : public testing::TestWithParam<Turned> {};
 INSTANTIATE_TEST_SUITE_P(Rooms, TurnedFurniture,
-                         testing::Values(Turned{5, 0.05}, Turned{8, 0.05}, Turned{12, 0.02}, Turned{20, 0.05}, Turned{33, 0.1}),
+                         testing::Values(Turned{5, 0.05}, Turned{8, 0.05}, Turned{12, 0.02}, Turned{20, 0.05},
+                                         Turned{33, 0.1}),
                          [](const auto& info) {
                            return std::to_string(static_cast<int>(info.param.turn)) + "deg_" +
                                   std::to_string(static_cast<int>(100 * info.param.share + 0.5)) + "percent";
                          });
 
-/// Furniture turned in a room keeps its orientation: points on its faces get normals within 0.3° of the truth.
+/// Furniture turned in a room keeps its orientation: points on its faces get normals within 0.3° of the
+/// truth.
 TEST_P(TurnedFurniture, KeepsItsFrame) {
   SynthOptions synth;
   synth.points = 100'000;
@@ -117,15 +120,19 @@ TEST_P(TurnedFurniture, KeepsItsFrame) {
   std::set<int> frames;
   for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
     const int label = scene.cloud.labels[i], plane = r.plane_of_point[i];
-    if (label < 0 || std::abs(scene.planes[label].normal.z()) > 0.5) continue;  // tops say nothing of the turn
+    if (label < 0 || std::abs(scene.planes[label].normal.z()) > 0.5)
+      continue;  // tops say nothing of the turn
     if (!std::binary_search(turned.begin(), turned.end(), label)) continue;
     ++upright;
-    if (plane < 0 || line_angle(r.result.planes[plane].plane.normal, scene.planes[label].normal) > radians(0.3)) continue;
+    if (plane < 0 ||
+        line_angle(r.result.planes[plane].plane.normal, scene.planes[label].normal) > radians(0.3))
+      continue;
     ++right;
     frames.insert(r.result.planes[plane].frame);
   }
   ASSERT_GT(upright, 100u);
-  std::cout << 100.0 * right / upright << " % of " << upright << " points within 0.3 deg, " << r.result.frames.size() << " frames\n";
+  std::cout << 100.0 * right / upright << " % of " << upright << " points within 0.3 deg, "
+            << r.result.frames.size() << " frames\n";
   EXPECT_GE(static_cast<double>(right), 0.8 * static_cast<double>(upright));
   EXPECT_FALSE(frames.empty());
 }
@@ -144,7 +151,8 @@ TEST_P(TurnedFurniture, LeavesTheRoomAlone) {
     const int label = scene.cloud.labels[i], plane = r.plane_of_point[i];
     if (label < 0 || scene.frames[label] != 0) continue;
     ++all;
-    right += plane >= 0 && line_angle(r.result.planes[plane].plane.normal, scene.planes[label].normal) < radians(0.3);
+    right += plane >= 0 &&
+             line_angle(r.result.planes[plane].plane.normal, scene.planes[label].normal) < radians(0.3);
   }
   EXPECT_GE(static_cast<double>(right), 0.97 * static_cast<double>(all));
 }

@@ -80,7 +80,8 @@ Input make_input(const std::string& name) {
 }
 
 class Determinism : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Inputs, Determinism, testing::Values("room", "estimated", "angles", "floorplan", "scan"),
+INSTANTIATE_TEST_SUITE_P(Inputs, Determinism,
+                         testing::Values("room", "estimated", "angles", "floorplan", "scan"),
                          [](const auto& info) { return info.param; });
 
 TEST_P(Determinism, SameBytesAtAnyThreadCount) {
@@ -119,7 +120,8 @@ TEST_P(Determinism, SameBytesForShuffledInput) {
         << "shuffle " << seed << " differs at word " << expected.first_difference(test::Digest(mixed.result));
     ASSERT_EQ(mixed.plane_of_point.size(), order.size());
     std::size_t differing = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) differing += mixed.plane_of_point[i] != straight.plane_of_point[order[i]];
+    for (std::size_t i = 0; i < order.size(); ++i)
+      differing += mixed.plane_of_point[i] != straight.plane_of_point[order[i]];
     EXPECT_EQ(differing, 0u);
   }
 }

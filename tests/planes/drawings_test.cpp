@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <regex>
 #include <map>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 #include "planes/scenes.h"
@@ -61,7 +61,8 @@ Drawn draw(const std::filesystem::path& file, const Options& options) {
   Context context;
   Drawn d{find_planes(*source, options, context)};
   EXPECT_TRUE(d.result.two_dimensional);
-  std::cout << d.result.planes.size() << " lines, " << d.result.frames.size() << " frames, scale " << d.result.scale << ";";
+  std::cout << d.result.planes.size() << " lines, " << d.result.frames.size() << " frames, scale "
+            << d.result.scale << ";";
   for (const ArrangedPlane& p : d.result.planes) {
     const Vec3 v = (*p.segment)[1] - (*p.segment)[0];
     std::cout << " " << std::fmod(degrees(std::atan2(v.y(), v.x())) + 360, 180) << "/" << v.norm();
@@ -76,7 +77,8 @@ void expect_strokes(const Drawn& drawn, const std::vector<Stroke>& strokes, doub
   for (const Stroke& s : strokes) length[static_cast<int>(std::lround(2 * s.angle)) % 360] += s.length;
   double missing[2] = {0, 0};
   for (const auto& [angle, expected] : length)
-    for (const bool flip : {false, true}) missing[flip] += drawn.length_at(0.5 * angle, tolerance, flip) < 0.6 * expected;
+    for (const bool flip : {false, true})
+      missing[flip] += drawn.length_at(0.5 * angle, tolerance, flip) < 0.6 * expected;
   EXPECT_EQ(std::min(missing[0], missing[1]), 0);
 }
 
@@ -87,7 +89,8 @@ struct Rectangles {
 };
 
 std::optional<Rectangles> two_rectangles(const Options& options, double tolerance) {
-  const auto file = test::shared_scan("rapter/two_rectangles.ply"), truth = test::shared_scan("rapter/two_cubes_gt.svg");
+  const auto file = test::shared_scan("rapter/two_rectangles.ply"),
+             truth = test::shared_scan("rapter/two_cubes_gt.svg");
   if (file.empty() || truth.empty()) return std::nullopt;
   const std::vector<Stroke> strokes = strokes_of(truth);
   EXPECT_EQ(strokes.size(), 8u);
@@ -97,7 +100,8 @@ std::optional<Rectangles> two_rectangles(const Options& options, double toleranc
   const Drawn drawn = draw(file, options);
   Rectangles r;
   for (const bool flip : {false, true})
-    r.turned = std::max(r.turned, std::min(drawn.length_at(turn, tolerance, flip), drawn.length_at(turn + 90, tolerance, flip)));
+    r.turned = std::max(r.turned, std::min(drawn.length_at(turn, tolerance, flip),
+                                           drawn.length_at(turn + 90, tolerance, flip)));
   r.upright = std::min(drawn.length_at(0, tolerance, false), drawn.length_at(90, tolerance, false));
   r.frames = drawn.result.frames.size();
   return r;
@@ -121,7 +125,8 @@ TEST(ShortOfTheGoal, TheTurnedRectangleAtTheEstimatedScale) {
 }
 
 TEST(Drawings, TheChamferKeepsItsOrientation) {
-  const auto file = test::shared_scan("rapter/increasing-noise-0.ply"), truth = test::shared_scan("rapter/increasing-noise-0_gt.svg");
+  const auto file = test::shared_scan("rapter/increasing-noise-0.ply"),
+             truth = test::shared_scan("rapter/increasing-noise-0_gt.svg");
   if (file.empty() || truth.empty()) return;
   const std::vector<Stroke> strokes = strokes_of(truth);
   ASSERT_EQ(strokes.size(), 5u);
@@ -163,9 +168,11 @@ TEST(Drawings, AFloorplanKeepsItsTurnedFurniture) {
   std::size_t turned = 0, right = 0;
   for (std::size_t i = 0; i < scene.cloud.size(); ++i) {
     const int label = scene.cloud.labels[i], plane = r.plane_of_point[i];
-    if (label < 0 || std::find(scene.turned.begin(), scene.turned.end(), label) == scene.turned.end()) continue;
+    if (label < 0 || std::find(scene.turned.begin(), scene.turned.end(), label) == scene.turned.end())
+      continue;
     ++turned;
-    right += plane >= 0 && line_angle(r.result.planes[plane].plane.normal, scene.planes[label].normal) < radians(0.3);
+    right += plane >= 0 &&
+             line_angle(r.result.planes[plane].plane.normal, scene.planes[label].normal) < radians(0.3);
   }
   ASSERT_GT(turned, 500u);
   EXPECT_GT(static_cast<double>(right), 0.9 * static_cast<double>(turned));
