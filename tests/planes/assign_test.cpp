@@ -3,6 +3,7 @@
 #include "planes/assign.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cstring>
 #include <map>
@@ -36,7 +37,8 @@ struct Scene {
     grid = test::grid_of(cloud, kScale / 2);
     cells = estimate_normals(grid, {}, context);
     std::vector<std::map<int, int>> votes(grid.size());
-    for (std::size_t i = 0; i < cloud.size(); ++i) ++votes[grid.find(grid.key_of(cloud.positions[i]))][truth[i]];
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      ++votes[grid.find(grid.key_of(cloud.positions[i]))][truth[i]];
     model.parts.resize(planes.size());
     for (std::size_t p = 0; p < planes.size(); ++p) {
       model.locals.push_back(planes[p].normal);
@@ -49,7 +51,8 @@ struct Scene {
     }
     model.frames = {{Mat3::Identity(), true}};
     for (std::size_t v = 0; v < grid.size(); ++v) {
-      const auto most = std::max_element(votes[v].begin(), votes[v].end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+      const auto most = std::max_element(votes[v].begin(), votes[v].end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
       model.parts[most->first].cells.push_back(static_cast<int>(v));
       model.surfaces[most->first].support.moments += grid.moments[v];
     }
@@ -78,7 +81,8 @@ TEST(Assign, NearestPlaneByBruteForce) {
   PointCloud probes;
   Random random(2);
   for (std::size_t i = 0; i < s.cloud.size(); i += 3)
-    probes.positions.push_back(s.cloud.positions[i] + 0.04 * Vec3(random.normal(), random.normal(), random.normal()));
+    probes.positions.push_back(s.cloud.positions[i] +
+                               0.04 * Vec3(random.normal(), random.normal(), random.normal()));
   const std::vector<int> plane = s.assign(probes);
   std::size_t checked = 0;
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -91,7 +95,8 @@ TEST(Assign, NearestPlaneByBruteForce) {
     double least = kScale;
     for (std::size_t k = 0; k < s.planes.size(); ++k) {
       double support = 1e9;
-      for (const int v : s.model.parts[k].cells) support = std::min(support, (s.grid.moments[v].mean - p).norm());
+      for (const int v : s.model.parts[k].cells)
+        support = std::min(support, (s.grid.moments[v].mean - p).norm());
       if (support < kScale && std::abs(s.planes[k].signed_distance(p)) < least) {
         least = std::abs(s.planes[k].signed_distance(p));
         nearest = static_cast<int>(k);
@@ -114,9 +119,9 @@ TEST(Assign, WhatIsFarOrNotFiniteHasNone) {
 TEST(Assign, ConvexCorner) {
   Scene s;
   Random random(3);
-  s.add({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 0.004, random);   // bottom
-  s.add({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.004, random);   // side
-  s.add({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0.004, random);   // front
+  s.add({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 0.004, random);  // bottom
+  s.add({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.004, random);  // side
+  s.add({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0.004, random);  // front
   s.build();
   const std::vector<int> plane = s.assign(s.cloud);
   std::size_t wrong = 0, wrong_far = 0, none = 0;
@@ -136,7 +141,7 @@ TEST(Assign, ConvexCorner) {
 TEST(Assign, APlaneEndsWhereItMeetsAnother) {
   Scene s;
   Random random(4);
-  s.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.0, random);     // floor, x > 0
+  s.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0.0, random);       // floor, x > 0
   s.add({0, 0, -0.5}, {0, 1, 0}, {0, 0, 1.5}, 0.0, random);  // wall x = 0, above and below
   s.build();
   PointCloud probes;
@@ -160,8 +165,10 @@ TEST(Assign, APlaneEndsWhereItMeetsAnother) {
 TEST(Assign, ThreadsDoNotMatter) {
   Scene s = parallel_and_crossing(0.02);
   PointCloud many;
-  for (int i = 0; i < 10; ++i) many.positions.insert(many.positions.end(), s.cloud.positions.begin(), s.cloud.positions.end());
+  for (int i = 0; i < 10; ++i)
+    many.positions.insert(many.positions.end(), s.cloud.positions.begin(), s.cloud.positions.end());
   ASSERT_GT(many.size(), 50'000u);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 4);
   s.context.threads = 1;
   const std::vector<int> one = s.assign(many);
   s.context.threads = 4;
@@ -180,7 +187,8 @@ TEST(PlaneSums, AreThePointsMomentsInAnyOrder) {
     mean /= n;
     Mat3 scatter = Mat3::Zero();
     for (std::size_t i = 0; i < s.cloud.size(); ++i)
-      if (s.truth[i] == static_cast<int>(k)) scatter += (s.cloud.positions[i] - mean) * (s.cloud.positions[i] - mean).transpose();
+      if (s.truth[i] == static_cast<int>(k))
+        scatter += (s.cloud.positions[i] - mean) * (s.cloud.positions[i] - mean).transpose();
     const Moments m = forward.moments(k);
     EXPECT_EQ(m.count, n);
     EXPECT_LT((m.mean - mean).norm(), 1e-6);

@@ -26,7 +26,9 @@ void expect_refused(const PointCloud& cloud, const Options& options, const std::
   }
 }
 
-TEST(BadInput, NoPoints) { expect_refused({}, Options(), "points"); }
+TEST(BadInput, NoPoints) {
+  expect_refused({}, Options(), "points");
+}
 
 TEST(BadInput, NothingFinite) {
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
@@ -51,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Lines, Collinear, testing::Range(0, 4));
 TEST_P(Collinear, IsRefused) {
   const Vec3 along[] = {Vec3::UnitX(), Vec3::UnitZ(), Vec3(1, 1, 0), Vec3(0.3, -0.8, 0.4)};
   PointCloud cloud;
-  for (int i = 0; i < 2000; ++i) cloud.positions.push_back(Vec3(0.5, 0.25, 4) + 0.001 * i * along[GetParam()]);
+  for (int i = 0; i < 2000; ++i)
+    cloud.positions.push_back(Vec3(0.5, 0.25, 4) + 0.001 * i * along[GetParam()]);
   if (GetParam() == 2) {
     // A slanted line in a coordinate plane is a drawing of one line, which has its answer.
     const test::Run r = test::run(cloud, test::with_scale(0.05));
@@ -63,7 +66,9 @@ TEST_P(Collinear, IsRefused) {
   expect_refused(cloud, Options(), "points");
 }
 
-PointCloud box() { return test::box_cloud({0, 0, 0}, {2, 1.5, 1}, 0.03, 0.002, 1); }
+PointCloud box() {
+  return test::box_cloud({0, 0, 0}, {2, 1.5, 1}, 0.03, 0.002, 1);
+}
 
 TEST(BadInput, ScaleThatCannotBe) {
   for (const double scale : {2.5, 1e9, 0.0, -0.1, std::numeric_limits<double>::infinity(), std::nan("")}) {
@@ -82,10 +87,22 @@ TEST(BadInput, AViewpointThatIsNoPoint) {
 TEST(BadInput, OptionsOutsideTheirRange) {
   Options options;
   OptionTable table = describe(options);
-  for (const auto& [name, value] : {std::pair{"scale", "0"}, {"scale", "-1"}, {"scale", "nan"}, {"angles", "0"},
-                                    {"angles", "90,-5"}, {"angles", "200"}, {"angles", ""}, {"lambda", "1.5"}, {"lambda", "-0.1"},
-                                    {"relative_scale", "0"}, {"relative_scale", "2"}, {"patch_angle", "0"}, {"solver", "best"},
-                                    {"solver", ""}, {"seed", "-1"}, {"no_such", "1"}})
+  for (const auto& [name, value] : {std::pair{"scale", "0"},
+                                    {"scale", "-1"},
+                                    {"scale", "nan"},
+                                    {"angles", "0"},
+                                    {"angles", "90,-5"},
+                                    {"angles", "200"},
+                                    {"angles", ""},
+                                    {"lambda", "1.5"},
+                                    {"lambda", "-0.1"},
+                                    {"relative_scale", "0"},
+                                    {"relative_scale", "2"},
+                                    {"patch_angle", "0"},
+                                    {"solver", "best"},
+                                    {"solver", ""},
+                                    {"seed", "-1"},
+                                    {"no_such", "1"}})
     EXPECT_THROW(table.set_text(name, value, "test"), InputError) << name << " = " << value;
   EXPECT_NO_THROW(table.set_text("angles", "60,90", "test"));
   EXPECT_EQ(options.angles, (std::vector<double>{60, 90}));
@@ -128,7 +145,8 @@ TEST(BadInput, ZeroNormalsAreEstimatedInstead) {
 TEST(BadInput, NothingFlatIsInfeasibleNotAnError) {
   PointCloud cloud;
   Random random(3);
-  for (int i = 0; i < 300; ++i) cloud.positions.emplace_back(random.uniform(0, 10), random.uniform(0, 10), random.uniform(0, 10));
+  for (int i = 0; i < 300; ++i)
+    cloud.positions.emplace_back(random.uniform(0, 10), random.uniform(0, 10), random.uniform(0, 10));
   const test::Run r = test::run(cloud, test::with_scale(0.05));
   EXPECT_TRUE(r.result.planes.empty());
   EXPECT_EQ(r.result.summary.status, Status::infeasible);

@@ -38,7 +38,8 @@ Stopped stop_at(const std::string& stage, int call) {
 
 class Cancellation : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Stages, Cancellation,
-                         testing::Values("survey", "voxels", "normals", "patches", "selection", "refit", "assignment", "relations"),
+                         testing::Values("survey", "voxels", "normals", "patches", "selection", "refit",
+                                         "assignment", "relations"),
                          [](const auto& info) { return info.param; });
 
 TEST_P(Cancellation, AtAStagesFirstReport) {
@@ -70,7 +71,8 @@ TEST(CancellationStages, AreAllTheStagesThereAre) {
   CloudSource source(cloud());
   const Arrangement a = find_planes(source, test::with_scale(0.08), context);
   EXPECT_EQ(a.summary.status, Status::solved);
-  EXPECT_EQ(stages, (std::set<std::string>{"survey", "voxels", "normals", "patches", "selection", "refit", "assignment", "relations"}));
+  EXPECT_EQ(stages, (std::set<std::string>{"survey", "voxels", "normals", "patches", "selection", "refit",
+                                           "assignment", "relations"}));
   EXPECT_EQ(a.summary.seconds.size(), stages.size());
 }
 

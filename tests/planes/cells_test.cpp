@@ -3,6 +3,7 @@
 #include "planes/cells.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "planes/scenes.h"
 
@@ -48,9 +49,11 @@ TEST(Cells, NormalsOfANoisyPlane) {
 TEST(Cells, NormalsOfASphere) {
   PointCloud cloud;
   Random random(2);
-  for (int i = 0; i < 40'000; ++i) cloud.positions.push_back(Vec3(5, 5, 5) + (1 + 0.003 * random.normal()) * random.direction());
+  for (int i = 0; i < 40'000; ++i)
+    cloud.positions.push_back(Vec3(5, 5, 5) + (1 + 0.003 * random.normal()) * random.direction());
   const VoxelGrid grid = test::grid_of(cloud, 0.05);
-  const Quality q = quality(grid, cells_of(grid), [](const Vec3& p) { return Vec3((p - Vec3(5, 5, 5)).normalized()); });
+  const Quality q =
+      quality(grid, cells_of(grid), [](const Vec3& p) { return Vec3((p - Vec3(5, 5, 5)).normalized()); });
   EXPECT_GT(q.share, 0.98);
   EXPECT_LT(q.median, 1.5);
   EXPECT_LT(q.largest, 8.0);
@@ -134,7 +137,8 @@ TEST(Cells, LinesOfADrawing) {
   PointCloud cloud;
   Random random(4);
   const Vec3 along = Vec3(1, 0.7, 0).normalized(), across(-along.y(), along.x(), 0);
-  for (int i = 0; i < 600; ++i) cloud.positions.push_back(0.005 * i * along + 0.003 * random.normal() * across);
+  for (int i = 0; i < 600; ++i)
+    cloud.positions.push_back(0.005 * i * along + 0.003 * random.normal() * across);
   Space space;
   space.flat_axis = Vec3::UnitZ();
   const VoxelGrid grid = test::grid_of(cloud, 0.04);
@@ -148,6 +152,7 @@ TEST(Cells, LinesOfADrawing) {
 TEST(Cells, ThreadsDoNotMatter) {
   const VoxelGrid grid = test::grid_of(test::box_cloud({0, 0, 0}, {2, 1.5, 1}, 0.01, 0.002, 5), 0.025);
   ASSERT_GT(grid.size(), 2u * 4096u);
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 4);
   const Cells one = cells_of(grid, {}, 1), four = cells_of(grid, {}, 4);
   EXPECT_TRUE(one.normal == four.normal);
   EXPECT_EQ(one.variation, four.variation);
@@ -184,7 +189,8 @@ TEST(AdaptTolerance, GrowsWithTheNoiseButNotBeyondFourTimes) {
   const auto mean_between = [&](double low, double high) {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < grid.size(); ++i)
-      if (const double x = grid.moments[i].mean.x(); x > low && x < high && grid.moments[i].count > 30) sum += cells.tolerance[i], ++count;
+      if (const double x = grid.moments[i].mean.x(); x > low && x < high && grid.moments[i].count > 30)
+        sum += cells.tolerance[i], ++count;
     return sum / count;
   };
   EXPECT_LT(mean_between(0, 2), 0.2 * 1.2);

@@ -17,7 +17,8 @@ class Digest {
     *this << a.two_dimensional << a.scale << a.lambda << a.planes.size();
     for (const double angle : a.angles) *this << angle;
     for (const ArrangedPlane& p : a.planes) {
-      *this << p.plane.normal << p.plane.offset << p.direction << p.frame << p.area << p.points << p.rms << p.tag.size();
+      *this << p.plane.normal << p.plane.offset << p.direction << p.frame << p.area << p.points << p.rms
+            << p.tag.size();
       for (const char c : p.tag) *this << c;
       for (const auto& ring : p.polygon) {
         *this << ring.size();
@@ -52,8 +53,7 @@ class Digest {
     return *this;
   }
   template <class T>
-    requires std::is_integral_v<T>
-  Digest& operator<<(T v) {
+  requires std::is_integral_v<T> Digest& operator<<(T v) {
     words_.push_back(static_cast<std::uint64_t>(v));
     return *this;
   }

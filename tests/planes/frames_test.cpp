@@ -21,9 +21,13 @@ Space drawing() {
   return space;
 }
 
-OrientationFrame frame_of(const Mat3& axes) { return {axes, true}; }
+OrientationFrame frame_of(const Mat3& axes) {
+  return {axes, true};
+}
 
-Mat3 about(const Vec3& axis, double deg) { return Eigen::AngleAxisd(radians(deg), axis).toRotationMatrix(); }
+Mat3 about(const Vec3& axis, double deg) {
+  return Eigen::AngleAxisd(radians(deg), axis).toRotationMatrix();
+}
 
 TEST(MakeAngles, MultiplesBelow180) {
   const auto expect = [](const std::vector<double>& generators, const std::vector<double>& all, bool right) {
@@ -43,7 +47,8 @@ TEST(MakeAngles, MultiplesBelow180) {
 
 TEST(MakeAngles, DeviationIsToTheNearestAngleOfLines) {
   const AngleSet set = angles_of({60, 90});
-  for (const auto& [angle, deviation] : {std::pair{0.0, 0.0}, {7, 7}, {50, 10}, {76, 14}, {88, 2}, {97, 7}, {125, 5}, {177, 3}, {180, 0}})
+  for (const auto& [angle, deviation] :
+       {std::pair{0.0, 0.0}, {7, 7}, {50, 10}, {76, 14}, {88, 2}, {97, 7}, {125, 5}, {177, 3}, {180, 0}})
     EXPECT_NEAR(degrees(set.deviation(radians(angle))), deviation, 1e-9) << angle;
 }
 
@@ -52,7 +57,8 @@ TEST(LocalDirections, Counts) {
   EXPECT_EQ(local_directions(angles_of({90}), drawing()).size(), 2u);
   EXPECT_EQ(local_directions(angles_of({60, 90}), drawing()).size(), 6u);
   EXPECT_EQ(local_directions(angles_of({45}), drawing()).size(), 4u);
-  EXPECT_EQ(local_directions(angles_of({45}), {}).size(), 9u);  // axes, and two diagonals in each of three planes
+  EXPECT_EQ(local_directions(angles_of({45}), {}).size(),
+            9u);  // axes, and two diagonals in each of three planes
   EXPECT_EQ(local_directions(angles_of({60}), drawing()).size(), 3u);
 }
 
@@ -79,13 +85,15 @@ TEST(LocalDirections, AreAxesTurnedByTheAngles) {
       for (const double deg : {0.0, 60.0, 90.0, 120.0})
         if (a != b) {
           const Vec3 d = about(Vec3::Unit(b), deg) * Vec3::Unit(a);
-          if (std::none_of(expected.begin(), expected.end(), [&](const Vec3& e) { return line_angle(e, d) < 1e-6; }))
+          if (std::none_of(expected.begin(), expected.end(),
+                           [&](const Vec3& e) { return line_angle(e, d) < 1e-6; }))
             expected.push_back(d);
         }
   const std::vector<Vec3> lines = local_directions(set, {});
   EXPECT_EQ(lines.size(), expected.size());
   for (const Vec3& e : expected)
-    EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const Vec3& l) { return line_angle(l, e) < 1e-9; }));
+    EXPECT_TRUE(
+        std::any_of(lines.begin(), lines.end(), [&](const Vec3& l) { return line_angle(l, e) < 1e-9; }));
 }
 
 TEST(OrientationFrame, PairsOfARightAngledFrameAreExact) {
@@ -112,7 +120,9 @@ TEST(OrientationFrame, OneDirectionClosesADrawingButNotASpace) {
   EXPECT_LT(line_angle(frame.direction(Vec3::UnitZ()), Vec3::UnitZ()), 1e-12);
 }
 
-double f(double x) { return 1 - std::exp(-3 * x); }
+double f(double x) {
+  return 1 - std::exp(-3 * x);
+}
 
 TEST(Irregularity, ZeroForEqualFramesInAnyRole) {
   const AngleSet set = angles_of({90});
@@ -132,7 +142,8 @@ TEST(Irregularity, IsSymmetric) {
     const std::vector<Vec3> locals = local_directions(set, {});
     for (int i = 0; i < 30; ++i) {
       const OrientationFrame a = close_frame(random.direction(), random.direction(), {});
-      const OrientationFrame b = i % 3 == 0 ? open_frame(random.direction(), {}) : close_frame(random.direction(), random.direction(), {});
+      const OrientationFrame b = i % 3 == 0 ? open_frame(random.direction(), {})
+                                            : close_frame(random.direction(), random.direction(), {});
       const double ab = irregularity(a, b, locals, set);
       EXPECT_NEAR(ab, irregularity(b, a, locals, set), 1e-12);
       EXPECT_GT(ab, 0.0);
@@ -159,12 +170,16 @@ TEST(Irregularity, SharedAxisInClosedForm) {
 TEST(Irregularity, SingleDirectionsAndDrawingsInClosedForm) {
   const AngleSet right = angles_of({90});
   const std::vector<Vec3> three = local_directions(right, {});
-  const auto line = [](double deg) { return open_frame(Vec3(std::cos(radians(deg)), std::sin(radians(deg)), 0), {}); };
+  const auto line = [](double deg) {
+    return open_frame(Vec3(std::cos(radians(deg)), std::sin(radians(deg)), 0), {});
+  };
   EXPECT_NEAR(irregularity(line(0), line(20), three, right), f(radians(20)), 1e-9);
   EXPECT_NEAR(irregularity(line(0), line(87), three, right), f(radians(3)), 1e-9);
   const AngleSet six = angles_of({60, 90});
   const std::vector<Vec3> lines = local_directions(six, drawing());
-  const auto flat = [](double deg) { return open_frame(Vec3(std::cos(radians(deg)), std::sin(radians(deg)), 0), drawing()); };
+  const auto flat = [](double deg) {
+    return open_frame(Vec3(std::cos(radians(deg)), std::sin(radians(deg)), 0), drawing());
+  };
   EXPECT_NEAR(irregularity(flat(0), flat(10), lines, six), f(radians(10)), 1e-9);  // directions every 30°
   EXPECT_NEAR(irregularity(flat(0), flat(25), lines, six), f(radians(5)), 1e-9);
 }
@@ -181,7 +196,9 @@ Patch patch_with(const Vec3& n, double doubt_u, double doubt_v) {
 
 TEST(DataCost, CountsStandardErrorsAlongEachAxis) {
   const Patch p = patch_with(Vec3(1, 2, 3).normalized(), 1e-4, 4e-4);
-  const auto tilted = [&](double tu, double tv) { return Vec3((p.fit.normal + tu * p.fit.u + tv * p.fit.v).normalized()); };
+  const auto tilted = [&](double tu, double tv) {
+    return Vec3((p.fit.normal + tu * p.fit.u + tv * p.fit.v).normalized());
+  };
   EXPECT_NEAR(tilt_chi2(p, p.fit.normal), 0.0, 1e-12);
   EXPECT_NEAR(tilt_chi2(p, tilted(0.03, 0)), 9.0, 1e-6);
   EXPECT_NEAR(tilt_chi2(p, tilted(0, 0.03)), 2.25, 1e-6);
@@ -203,11 +220,13 @@ TEST(BestCandidate, IsTheCheapestWithinTheAngle) {
   int none = 0;
   for (int i = 0; i < 200; ++i) {
     const Patch p = patch_with(random.direction(), 1e-4, 3e-4);
-    const OrientationFrame frame = i % 4 == 0 ? open_frame(random.direction(), {}) : close_frame(random.direction(), random.direction(), {});
+    const OrientationFrame frame = i % 4 == 0 ? open_frame(random.direction(), {})
+                                              : close_frame(random.direction(), random.direction(), {});
     Candidate expected;
     for (std::size_t l = 0; l < (frame.closed ? locals.size() : 1); ++l) {
       const Vec3 n = frame.axes * locals[l];
-      if (line_angle(n, p.fit.normal) <= radians(15) && data_cost(p, n) < expected.cost) expected = {data_cost(p, n), static_cast<int>(l)};
+      if (line_angle(n, p.fit.normal) <= radians(15) && data_cost(p, n) < expected.cost)
+        expected = {data_cost(p, n), static_cast<int>(l)};
     }
     const Candidate found = best_candidate(p, frame, locals, radians(15));
     EXPECT_EQ(found.local, expected.local);

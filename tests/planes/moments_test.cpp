@@ -11,7 +11,9 @@
 namespace unseen::planes {
 namespace {
 
-Moments of_point(const Vec3& p) { return {1.0, p, Mat3::Zero()}; }
+Moments of_point(const Vec3& p) {
+  return {1.0, p, Mat3::Zero()};
+}
 
 std::vector<Vec3> random_points(std::size_t count, std::uint64_t seed, const Vec3& size, const Vec3& origin) {
   Random random(seed);
@@ -68,7 +70,9 @@ TEST(Moments, SquaredDistancesEqualTheSumOverPoints) {
 
 /// Eight corners of a slab a > b > c about the origin: every figure of its fit is known in closed form.
 TEST(FitPlane, SlabInClosedForm) {
-  const Mat3 turn = (Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()) * Eigen::AngleAxisd(-1.1, Vec3::UnitX())).toRotationMatrix();
+  const Mat3 turn =
+      (Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()) * Eigen::AngleAxisd(-1.1, Vec3::UnitX()))
+          .toRotationMatrix();
   const Vec3 half(3.0, 1.5, 0.25), center(100, -50, 7);
   Moments m;
   for (int corner = 0; corner < 8; ++corner)

@@ -60,7 +60,8 @@ TEST_P(Outlines, RectangleWithARectangularHole) {
   // Half a cell on each side of every edge.
   EXPECT_NEAR(signed_area(sheet, polygon[0]), 6.0, kCell * 10.0);
   EXPECT_NEAR(signed_area(sheet, polygon[1]), -0.8, kCell * 3.6);
-  EXPECT_NEAR(area_of(polygon, sheet.plane.normal), signed_area(sheet, polygon[0]) + signed_area(sheet, polygon[1]), 1e-9);
+  EXPECT_NEAR(area_of(polygon, sheet.plane.normal),
+              signed_area(sheet, polygon[0]) + signed_area(sheet, polygon[1]), 1e-9);
   EXPECT_EQ(polygon[0].size(), 4u);
   EXPECT_EQ(polygon[1].size(), 4u);
   for (const auto& ring : polygon)
@@ -91,7 +92,9 @@ TEST(Outline, SmallGapsCloseAndLargeOnesCut) {
   EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), 2.0, 0.2);  // the largest part
 }
 
-TEST(Outline, NoPointsNoOutline) { EXPECT_TRUE(outline({}, Plane(), Vec3::UnitX(), kCell).empty()); }
+TEST(Outline, NoPointsNoOutline) {
+  EXPECT_TRUE(outline({}, Plane(), Vec3::UnitX(), kCell).empty());
+}
 
 /// What is a single cell wide still has an outline.
 TEST(Outline, AThinStripIsNotLost) {
@@ -100,12 +103,14 @@ TEST(Outline, AThinStripIsNotLost) {
     for (int i = 0; i < cells; ++i) points.emplace_back((i + 0.5) * kCell, 0.5 * kCell, 0);
     const Polygon polygon = outline(points, Plane(), Vec3::UnitX(), kCell);
     ASSERT_EQ(polygon.size(), 1u) << cells << " cells";
-    EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), cells * kCell * kCell, 0.1 * cells * kCell * kCell + kCell * kCell);
+    EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), cells * kCell * kCell,
+                0.1 * cells * kCell * kCell + kCell * kCell);
   }
 }
 
 TEST(AreaOf, SubtractsHolesAndFollowsTheNormal) {
-  const Polygon polygon = {{{0, 0, 5}, {4, 0, 5}, {4, 3, 5}, {0, 3, 5}}, {{1, 1, 5}, {1, 2, 5}, {2, 2, 5}, {2, 1, 5}}};
+  const Polygon polygon = {{{0, 0, 5}, {4, 0, 5}, {4, 3, 5}, {0, 3, 5}},
+                           {{1, 1, 5}, {1, 2, 5}, {2, 2, 5}, {2, 1, 5}}};
   EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), 11.0, 1e-12);
   EXPECT_NEAR(area_of(polygon, -Vec3::UnitZ()), -11.0, 1e-12);
   EXPECT_EQ(area_of({}, Vec3::UnitZ()), 0.0);

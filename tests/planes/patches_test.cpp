@@ -75,7 +75,8 @@ TEST_P(Hinges, MakeTwoPatches) {
   }
   for (std::size_t i = 0; i < scene.grid.size(); ++i)
     for (int j = 0; j < 2; ++j)
-      EXPECT_EQ(p.patch_of_cell[i] == j, std::binary_search(sets[j].begin(), sets[j].end(), static_cast<int>(i)));
+      EXPECT_EQ(p.patch_of_cell[i] == j,
+                std::binary_search(sets[j].begin(), sets[j].end(), static_cast<int>(i)));
 }
 
 TEST(Grow, TwoPlanesBecomeTwoRegions) {
@@ -83,7 +84,8 @@ TEST(Grow, TwoPlanesBecomeTwoRegions) {
     Scene scene(hinge(angle, 0.003));
     CellSets regions = scene.grow();
     expect_disjoint_and_sorted(regions, scene.grid.size());
-    std::sort(regions.begin(), regions.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+    std::sort(regions.begin(), regions.end(),
+              [](const auto& a, const auto& b) { return a.size() > b.size(); });
     ASSERT_GE(regions.size(), 2u);
     const double each = 0.38 * static_cast<double>(scene.grid.size());
     EXPECT_GT(regions[0].size(), each);
@@ -100,7 +102,8 @@ TEST(Grow, ReachesOverSmallGapsOnly) {
 TEST(Grow, ABlobIsNoSurface) {
   PointCloud cloud;
   Random random(2);
-  for (int i = 0; i < 500; ++i) cloud.positions.emplace_back(0.08 * random.normal(), 0.08 * random.normal(), 0.08 * random.normal());
+  for (int i = 0; i < 500; ++i)
+    cloud.positions.emplace_back(0.08 * random.normal(), 0.08 * random.normal(), 0.08 * random.normal());
   double most = 0;
   Scene scene(cloud);
   for (const auto& region : scene.grow()) most = std::max(most, static_cast<double>(region.size()));
@@ -121,7 +124,8 @@ TEST(Split, ACornerIsNotCut) {
     for (int k = 0; k < 2; ++k) {
       const Patch patch = make_patch(scene.grid, scene.space, parts[k]);
       const bool flat = line_angle(patch.fit.normal, Vec3::UnitZ()) < radians(2);
-      const bool tilted = std::abs(degrees(line_angle(patch.fit.normal, Vec3::UnitZ())) - std::min(angle, 180 - angle)) < 2;
+      const bool tilted =
+          std::abs(degrees(line_angle(patch.fit.normal, Vec3::UnitZ())) - std::min(angle, 180 - angle)) < 2;
       EXPECT_TRUE(flat || tilted) << degrees(line_angle(patch.fit.normal, Vec3::UnitZ()));
     }
   }
@@ -144,7 +148,8 @@ TEST(Merge, HalvesOfOnePlaneJoinAndHingesDoNot) {
   EXPECT_EQ(merge_regions(flat.grid, flat.cells, flat.space, kAngle, halves(flat), flat.context).size(), 1u);
   for (const double angle : {90.0, 150.0, 170.0}) {
     Scene bent(hinge(angle, 0.005));
-    EXPECT_EQ(merge_regions(bent.grid, bent.cells, bent.space, kAngle, halves(bent), bent.context).size(), 2u);
+    EXPECT_EQ(merge_regions(bent.grid, bent.cells, bent.space, kAngle, halves(bent), bent.context).size(),
+              2u);
   }
 }
 

@@ -9,7 +9,9 @@
 namespace unseen::planes {
 namespace {
 
-Mat3 about_z(double deg) { return Eigen::AngleAxisd(radians(deg), Vec3::UnitZ()).toRotationMatrix(); }
+Mat3 about_z(double deg) {
+  return Eigen::AngleAxisd(radians(deg), Vec3::UnitZ()).toRotationMatrix();
+}
 
 struct Input {
   Patches patches;
@@ -69,7 +71,8 @@ TEST(Reconcile, ASignificantTiltIsKept) {
 
 TEST(Reconcile, FramesThatDoNotDifferSignificantlyBecomeOne) {
   EXPECT_EQ(room_and_table(0.5, 0.2, 0.5).run().frames.size(), 1u);
-  EXPECT_EQ(room_and_table(89.6, 0.2, 0.5).run().frames.size(), 1u);  // the same but for the roles of its axes
+  EXPECT_EQ(room_and_table(89.6, 0.2, 0.5).run().frames.size(),
+            1u);  // the same but for the roles of its axes
   EXPECT_EQ(room_and_table(5.0, 0.0, 0.5).run().frames.size(), 2u);
 }
 
@@ -98,11 +101,14 @@ TEST(Reconcile, ConstraintsHoldOnRandomScenes) {
     const double sigma = random.uniform(0.1, 0.8);
     const int frames = 2 + static_cast<int>(random.index(5));
     for (int f = 0; f < frames; ++f) {
-      const Mat3 axes = scene % 3 == 0 ? Mat3(Eigen::AngleAxisd(random.uniform(0, 3), random.direction()).toRotationMatrix())
-                                       : about_z(random.uniform(0, 90));
+      const Mat3 axes =
+          scene % 3 == 0
+              ? Mat3(Eigen::AngleAxisd(random.uniform(0, 3), random.direction()).toRotationMatrix())
+              : about_z(random.uniform(0, 90));
       in.frame(axes);
       for (int l = 0; l < 3; ++l)
-        in.patch(f, l, axes.col(l) + radians(sigma) * Vec3(random.normal(), random.normal(), random.normal()), sigma, random.uniform(0.5, 5));
+        in.patch(f, l, axes.col(l) + radians(sigma) * Vec3(random.normal(), random.normal(), random.normal()),
+                 sigma, random.uniform(0.5, 5));
     }
     for (const auto& generators : {std::vector<double>{90}, {60, 90}}) {
       const Reconciled r = in.run(generators);

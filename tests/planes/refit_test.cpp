@@ -4,13 +4,14 @@
 
 #include <Eigen/LU>
 
-#include "planes/scenes.h"
 #include "planes/arrange.h"
+#include "planes/scenes.h"
 
 namespace unseen::planes {
 namespace {
 
-Surface surface_of(int frame, int local, const Vec3& normal, double variance_u, double variance_v, Random& random) {
+Surface surface_of(int frame, int local, const Vec3& normal, double variance_u, double variance_v,
+                   Random& random) {
   Surface s;
   s.frame = frame;
   s.local = local;
@@ -23,8 +24,8 @@ Surface surface_of(int frame, int local, const Vec3& normal, double variance_u, 
   return s;
 }
 
-/// Frames turned at random about a shared vertical, with a relation or two, and surfaces whose fits are tilted
-/// by noise; the frames themselves start out off by a degree.
+/// Frames turned at random about a shared vertical, with a relation or two, and surfaces whose fits are
+/// tilted by noise; the frames themselves start out off by a degree.
 Model random_model(std::uint64_t seed, int frames) {
   Random random(seed);
   Model m;
@@ -78,7 +79,8 @@ Model moved(const Model& m, const Eigen::VectorXd& w) {
   Model result = m;
   for (std::size_t f = 0; f < m.frames.size(); ++f) {
     const Vec3 turn = w.segment<3>(3 * static_cast<int>(f));
-    if (turn.norm() > 0) result.frames[f].axes = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * m.frames[f].axes;
+    if (turn.norm() > 0)
+      result.frames[f].axes = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * m.frames[f].axes;
   }
   return result;
 }
@@ -114,12 +116,14 @@ TEST_P(Refit, IsStationaryAlongTheConstraints) {
     Eigen::VectorXd gradient(n);
     Eigen::MatrixXd jacobian(rows, n);
     for (int i = 0; i < n; ++i) {
-      const Model plus = moved(m, h * Eigen::VectorXd::Unit(n, i)), minus = moved(m, -h * Eigen::VectorXd::Unit(n, i));
+      const Model plus = moved(m, h * Eigen::VectorXd::Unit(n, i)),
+                  minus = moved(m, -h * Eigen::VectorXd::Unit(n, i));
       gradient[i] = (objective(plus) - objective(minus)) / (2 * h);
       if (rows > 0) jacobian.col(i) = (constraint_values(plus) - constraint_values(minus)) / (2 * h);
     }
     Eigen::VectorXd free = gradient;
-    if (rows > 0) free -= jacobian.transpose() * (jacobian * jacobian.transpose()).fullPivLu().solve(jacobian * gradient);
+    if (rows > 0)
+      free -= jacobian.transpose() * (jacobian * jacobian.transpose()).fullPivLu().solve(jacobian * gradient);
     // Gradients of single surfaces are of the size 1/σ ≈ 10²…10³.
     EXPECT_LT(free.norm(), 0.05) << "seed " << seed;
   }
@@ -172,8 +176,9 @@ TEST(RefitModel, WeighsByVariance) {
   m.locals = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   m.frames = {{Mat3::Identity(), true}};
   const double e = radians(0.4), floor = std::pow(radians(0.03), 2), variance = 1e-6;
-  m.surfaces = {surface_of(0, 0, {std::cos(e), -std::sin(e), 0}, variance, variance, random),
-                surface_of(0, 1, {0, 1, 0}, 3 * (variance + floor) - floor, 3 * (variance + floor) - floor, random)};
+  m.surfaces = {
+      surface_of(0, 0, {std::cos(e), -std::sin(e), 0}, variance, variance, random),
+      surface_of(0, 1, {0, 1, 0}, 3 * (variance + floor) - floor, 3 * (variance + floor) - floor, random)};
   refit(m);
   EXPECT_NEAR(line_angle(m.normal(m.surfaces[0]), m.surfaces[0].support.fit.normal), e / 4, 1e-7);
   EXPECT_NEAR(line_angle(m.normal(m.surfaces[1]), m.surfaces[1].support.fit.normal), 3 * e / 4, 1e-7);

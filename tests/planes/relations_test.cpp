@@ -73,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
       std::string name = info.param.file.substr(info.param.file.find('/') + 1);
       name = name.substr(0, name.rfind('.'));
       for (const double a : info.param.angles) name += "_" + std::to_string(static_cast<int>(a));
-      std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
       return name;
     });
 
@@ -90,14 +91,16 @@ TEST_P(Scans, EveryRelationStatedHolds) {
   EXPECT_GE(r.result.planes.size(), 4u);
   EXPECT_FALSE(r.result.relations.empty());
   expect_exact(r.result, options.angles);
-  const std::size_t assigned = r.plane_of_point.size() - std::count(r.plane_of_point.begin(), r.plane_of_point.end(), -1);
+  const std::size_t assigned =
+      r.plane_of_point.size() - std::count(r.plane_of_point.begin(), r.plane_of_point.end(), -1);
   std::cout << r.result.planes.size() << " planes, " << r.result.frames.size() << " frames, "
             << 100.0 * assigned / r.plane_of_point.size() << " % assigned, scale " << r.result.scale << ", "
             << evaluate_relations(r.result).near_misses << " near misses\n";
 }
 
 class SynthScans : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, SynthScans, testing::Values("lhouse", "stairs", "room", "floorplan", "building"),
+INSTANTIATE_TEST_SUITE_P(All, SynthScans,
+                         testing::Values("lhouse", "stairs", "room", "floorplan", "building"),
                          [](const auto& info) { return info.param; });
 
 TEST_P(SynthScans, EveryRelationStatedHolds) {

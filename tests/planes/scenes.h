@@ -25,19 +25,22 @@ namespace unseen::planes::test {
 inline void add_rectangle(PointCloud& cloud, const Vec3& origin, const Vec3& a, const Vec3& b, double spacing,
                           double noise, Random& random) {
   const Vec3 n = a.cross(b).normalized();
-  const int na = std::max(1, static_cast<int>(a.norm() / spacing)), nb = std::max(1, static_cast<int>(b.norm() / spacing));
+  const int na = std::max(1, static_cast<int>(a.norm() / spacing)),
+            nb = std::max(1, static_cast<int>(b.norm() / spacing));
   for (int i = 0; i < na; ++i)
     for (int k = 0; k < nb; ++k)
-      cloud.positions.push_back(origin + a * ((i + random.uniform()) / na) + b * ((k + random.uniform()) / nb) +
-                                noise * random.normal() * n);
+      cloud.positions.push_back(origin + a * ((i + random.uniform()) / na) +
+                                b * ((k + random.uniform()) / nb) + noise * random.normal() * n);
 }
 
 /// The six inner faces of a box, its corner at `origin`.
-inline PointCloud box_cloud(const Vec3& origin, const Vec3& size, double spacing, double noise, std::uint64_t seed) {
+inline PointCloud box_cloud(const Vec3& origin, const Vec3& size, double spacing, double noise,
+                            std::uint64_t seed) {
   PointCloud cloud;
   Random random(seed);
   for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 a = Vec3::Unit((axis + 1) % 3) * size[(axis + 1) % 3], b = Vec3::Unit((axis + 2) % 3) * size[(axis + 2) % 3];
+    const Vec3 a = Vec3::Unit((axis + 1) % 3) * size[(axis + 1) % 3],
+               b = Vec3::Unit((axis + 2) % 3) * size[(axis + 2) % 3];
     add_rectangle(cloud, origin, a, b, spacing, noise, random);
     add_rectangle(cloud, origin + Vec3::Unit(axis) * size[axis], a, b, spacing, noise, random);
   }

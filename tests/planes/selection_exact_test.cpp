@@ -53,7 +53,8 @@ TEST(SolveExact, FindsTheOptimumFromAPoorStart) {
 TEST(SolveLocal, IsWithinOnePercentOfCbcOnRandomProblems) {
   for (std::uint64_t seed = 0; seed < 20; ++seed)
     expect_near_optimum(test::random_problem(8 + static_cast<int>(seed), 4 + static_cast<int>(seed % 3),
-                                             0.3 + 0.1 * static_cast<double>(seed % 5), static_cast<int>(seed % 4 == 0), seed),
+                                             0.3 + 0.1 * static_cast<double>(seed % 5),
+                                             static_cast<int>(seed % 4 == 0), seed),
                         "seed " + std::to_string(seed), 20);
 }
 
@@ -116,7 +117,8 @@ TEST(SelectFrames, StatesItsOwnEnergyAndBound) {
     options.lambda = lambda;
     const Selection s = select_frames(patches, angles, {}, options, context);
     // Differences of 10⁻⁸ a frame are no reason for the search to go on.
-    EXPECT_LE(s.after.total(), s.before.total() + 1e-8 * static_cast<double>(patches.patches.size())) << lambda;
+    EXPECT_LE(s.after.total(), s.before.total() + 1e-8 * static_cast<double>(patches.patches.size()))
+        << lambda;
     EXPECT_LE(s.bound, s.after.total() + 1e-9) << lambda;
     ASSERT_EQ(s.frame_of_patch.size(), patches.patches.size());
     const std::vector<Vec3> locals = local_directions(angles, {});
@@ -153,7 +155,8 @@ TEST(SelectFrames, FewerFramesAsLambdaFalls) {
     }
     last = used.size();
   }
-  EXPECT_GE(last, patches.patches.size() * 8 / 10);  // patches that share a normal to 10⁻⁸ of cost share a frame
+  EXPECT_GE(last,
+            patches.patches.size() * 8 / 10);  // patches that share a normal to 10⁻⁸ of cost share a frame
 }
 
 }  // namespace

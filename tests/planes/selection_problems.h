@@ -12,7 +12,8 @@ namespace unseen::planes::test {
 
 /// A selection problem like those of scenes: patches cluster about a few true frames, further frames resemble
 /// these, some pairs have no candidate. Every patch has its own local fit among the candidates.
-inline SelectionProblem random_problem(int patches, int frames, double lambda, int fixed, std::uint64_t seed) {
+inline SelectionProblem random_problem(int patches, int frames, double lambda, int fixed,
+                                       std::uint64_t seed) {
   Random random(seed);
   SelectionProblem p;
   p.lambda = lambda;
@@ -27,7 +28,8 @@ inline SelectionProblem random_problem(int patches, int frames, double lambda, i
     for (int k = 0; k < all; ++k) {
       const double off = k < frames ? std::abs(angle[k] - own) : 2.0 * random.uniform();
       const bool possible = k == frames + j || (k < frames && (off < 15 || k < fixed));
-      p.data(j, k) = possible ? (k == frames + j ? 0.0 : off * off / (sigma * sigma) / 9) : std::numeric_limits<double>::infinity();
+      p.data(j, k) = possible ? (k == frames + j ? 0.0 : off * off / (sigma * sigma) / 9)
+                              : std::numeric_limits<double>::infinity();
       p.orientation(j, k) = possible ? 2 * k + static_cast<int>(random.index(2)) : -1;
     }
     for (int o = 0; o < j; ++o)
@@ -56,7 +58,8 @@ inline double energy_by_definition(const SelectionProblem& p, const Labels& labe
   for (std::size_t j = 0; j < labels.size(); ++j) sum += p.lambda * p.data(static_cast<int>(j), labels[j]);
   for (const int a : chosen)
     for (const int b : chosen) sum += 0.5 * (1 - p.lambda) * p.irregularity(a, b);
-  for (const auto& [a, b] : p.neighbours) sum += (1 - p.lambda) / 10 * (p.orientation(a, labels[a]) != p.orientation(b, labels[b]));
+  for (const auto& [a, b] : p.neighbours)
+    sum += (1 - p.lambda) / 10 * (p.orientation(a, labels[a]) != p.orientation(b, labels[b]));
   return sum;
 }
 

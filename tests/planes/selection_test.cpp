@@ -66,7 +66,8 @@ double brute_force(const SelectionProblem& p) {
 
 TEST(SolveLocal, FindsTheBestOfAllLabelingsOfTinyProblems) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const SelectionProblem p = random_problem(4 + seed % 2, 3, 0.1 + 0.2 * (seed % 5), static_cast<int>(seed % 2), seed);
+    const SelectionProblem p =
+        random_problem(4 + seed % 2, 3, 0.1 + 0.2 * (seed % 5), static_cast<int>(seed % 2), seed);
     const double best = brute_force(p);
     const Labels labels = solve_local(p, kContext);
     EXPECT_NEAR(energy_of(p, labels).total(), best, 1e-9 + 1e-6 * best) << "seed " << seed;
@@ -98,7 +99,8 @@ TEST(SolveLocal, LambdaOneKeepsEveryLocalFit) {
   }
 }
 
-/// With λ = 0 only frames and seams cost; as every patch has a candidate of the first frames, one frame is enough.
+/// With λ = 0 only frames and seams cost; as every patch has a candidate of the first frames, one frame is
+/// enough.
 TEST(SolveLocal, LambdaZeroAsksForOneFrame) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     SelectionProblem p = random_problem(20, 5, 0.0, 0, seed);

@@ -59,7 +59,8 @@ TEST(Survey, OneOfEachGroupOfTwinsStays) {
 TEST(Survey, TheTwinThatStaysDoesNotDependOnTheOrder) {
   PointCloud cloud = scattered(60, 3);
   for (std::size_t i = 0; i < 60; ++i) cloud.normals.push_back(Random(i + 1).direction().cast<float>());
-  for (std::size_t i = 0; i < 20; ++i) cloud.positions[3 * i + 1] = cloud.positions[3 * i + 2] = cloud.positions[3 * i];
+  for (std::size_t i = 0; i < 20; ++i)
+    cloud.positions[3 * i + 1] = cloud.positions[3 * i + 2] = cloud.positions[3 * i];
   const auto stay = [](const PointCloud& c) {
     const Survey s = look_at(c);
     std::vector<std::array<float, 3>> normals;

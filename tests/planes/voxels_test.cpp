@@ -18,7 +18,8 @@ PointCloud sample(std::size_t count, std::uint64_t seed, const Vec3& origin = Ve
   PointCloud cloud;
   Random random(seed);
   for (std::size_t i = 0; i < count; ++i) {
-    cloud.positions.push_back(origin + Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.1 * random.normal()));
+    cloud.positions.push_back(origin +
+                              Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.1 * random.normal()));
     cloud.normals.push_back(i % 17 == 0 ? Vec3f(Vec3f::Zero()) : Vec3f(random.direction().cast<float>()));
   }
   return cloud;
@@ -62,7 +63,8 @@ void expect_moments_of(const PointCloud& cloud, double edge, double tolerance) {
   const VoxelGrid grid = test::grid_of(cloud, edge);
   std::map<VoxelKey, std::vector<Vec3>> inside;
   for (const Vec3& p : cloud.positions)
-    inside[{static_cast<std::int32_t>(std::floor(p.x() / edge)), static_cast<std::int32_t>(std::floor(p.y() / edge)),
+    inside[{static_cast<std::int32_t>(std::floor(p.x() / edge)),
+            static_cast<std::int32_t>(std::floor(p.y() / edge)),
             static_cast<std::int32_t>(std::floor(p.z() / edge))}]
         .push_back(p);
   ASSERT_EQ(grid.size(), inside.size());
@@ -80,7 +82,9 @@ void expect_moments_of(const PointCloud& cloud, double edge, double tolerance) {
   }
 }
 
-TEST(Voxels, MomentsAreThoseOfThePointsInside) { expect_moments_of(sample(3000, 5), 0.125, 1e-5); }
+TEST(Voxels, MomentsAreThoseOfThePointsInside) {
+  expect_moments_of(sample(3000, 5), 0.125, 1e-5);
+}
 
 TEST(Voxels, UtmCoordinatesLoseNothing) {
   // A double has a resolution of 10⁻⁹ m at 5·10⁶ m; that is all that may get lost.
@@ -101,7 +105,8 @@ TEST(Voxels, NegativeCoordinatesRoundDown) {
 
 TEST(Voxels, SkippedAndNonFinitePointsAreLeftOut) {
   PointCloud cloud;
-  cloud.positions = {{0, 0, 0}, {0.1, 0, 0}, {std::nan(""), 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}};
+  cloud.positions = {
+      {0, 0, 0}, {0.1, 0, 0}, {std::nan(""), 0, 0}, {0, std::numeric_limits<double>::infinity(), 0}};
   VoxelBuilder builder(1.0);
   builder.add(cloud, {false, true, false, false});
   ASSERT_EQ(builder.keys().size(), 1u);
