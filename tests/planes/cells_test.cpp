@@ -109,7 +109,8 @@ TEST(Cells, AWireHasNoNormalButTheInputsOwn) {
   const Cells with = cells_of(grid);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     EXPECT_LT(line_angle(with.normal[i], Vec3(0, 0.6, 0.8)), 1e-3);
-    EXPECT_EQ(compare_normal(with, i, Vec3::UnitX()), NormalVerdict::contradicts);
+    // Only a flat neighbourhood proves anything; a point's normal is noisy.
+    EXPECT_EQ(compare_normal(with, i, Vec3::UnitX()), NormalVerdict::unknown);
   }
   grid.normals.clear();
   const Cells without = cells_of(grid);
