@@ -105,8 +105,8 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
   return reach;
 }
 
-void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
-                   const Context& context) {
+void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, bool only_sure,
+                   std::span<int> plane_of_point, const Context& context) {
   parallel_blocks(context, block.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     VoxelKey last{};
     int voxel = -2;
@@ -121,7 +121,7 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
       }
       if (voxel < 0) continue;
       double nearest = reach.tolerance[voxel];
-      int worst = kContradicted;  // rank of the best candidate so far: lower is better, distance decides ties
+      int worst = only_sure ? 0 : kContradicted;  // rank of the best candidate so far: lower is better, distance decides ties
       const std::uint32_t first = reach.first[voxel], end = reach.first[voxel + 1];
       for (std::uint32_t c = first; c < end; ++c) {
         const ReachedPlane& candidate = reach.candidate[c];

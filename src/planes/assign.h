@@ -39,9 +39,9 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
 
 /// Plane of each point of a block: among those that reach it, and that its voxel's normal or its own does not
 /// contradict (45°), first those that do not end before it at another plane, then those that the normals speak
-/// for, then the nearest; −1 = none, or not finite.
-void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, std::span<int> plane_of_point,
-                   const Context& context);
+/// for, then the nearest; −1 = none, or not finite. With `only_sure`, those of the first rank alone.
+void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, bool only_sure,
+                   std::span<int> plane_of_point, const Context& context);
 
 /// Takes the plane from points near where it meets another one of their voxel, within twice the noise: whose
 /// they are is a toss-up, and a fit to those that fell to a plane is biased.

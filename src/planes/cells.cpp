@@ -109,7 +109,7 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
       }
       if (cells.normal[i].isZero() && !grid.normals.empty()) {
         cells.normal[i] = input_normal(grid.normals[i], space);
-        if (!cells.normal[i].isZero()) cells.variation[i] = kLevels;
+        if (!cells.normal[i].isZero()) cells.variation[i] = kLevels + 0.5;  // proves nothing
       }
     }
   });

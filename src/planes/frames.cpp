@@ -37,7 +37,7 @@ AngleSet make_angles(const std::vector<double>& generators) {
   AngleSet set;
   set.all.push_back(0.0);
   for (const double g : generators)
-    for (int k = 1; k * g < kPi - 1e-9; ++k) set.all.push_back(k * g);
+    for (int k = 1; g > 0 && k * g < kPi - 1e-9; ++k) set.all.push_back(k * g);
   std::sort(set.all.begin(), set.all.end());
   set.all.erase(std::unique(set.all.begin(), set.all.end(), [](double a, double b) { return b - a < 1e-9; }),
                 set.all.end());

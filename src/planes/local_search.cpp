@@ -13,9 +13,9 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kImpossible = 1e4;  // stands for an infinite cost, so that differences stay numbers
-constexpr int kSubsetFrames = 8;    // all subsets of this many frames are tried …
+constexpr int kSubsetFrames = 10;   // all subsets of this many frames are tried …
 constexpr int kSubsetPatches = 80;  // … for problems up to this size
-constexpr int kShakes = 12;         // random starts
+constexpr int kShakes = 12;          // random starts
 constexpr std::size_t kSwaps = 24;  // frames that may replace another, the most promising ones
 
 /// A problem with what the search asks for again and again.
@@ -268,7 +268,18 @@ class Search {
     for (const int k : state.open)
       if (!p_.fixed[k]) pool.push_back(k);
     if (static_cast<int>(pool.size()) > kSubsetFrames) return state;
-    for (const int k : promising(state.open, kSubsetFrames - pool.size())) pool.push_back(k);
+    const auto widen = [&](const std::vector<int>& beside, std::size_t count) {
+      for (const int k : promising(beside, count))
+        if (static_cast<int>(pool.size()) < kSubsetFrames && std::find(pool.begin(), pool.end(), k) == pool.end())
+          pool.push_back(k);
+    };
+    for (const int k : state.open) {
+      if (p_.fixed[k]) continue;
+      std::vector<int> rest = state.open;
+      std::erase(rest, k);
+      widen(rest, 3);
+    }
+    widen(state.open, kSubsetFrames);
     State best = state;
     const std::vector<int> base = fixed();
     for (unsigned set = 0; set < 1u << pool.size(); ++set) {

@@ -213,8 +213,8 @@ Polygon outline(const std::vector<Vec3>& points, const Plane& plane, const Vec3&
   Polygon polygon;
   for (const Ring& ring : rings) {
     if (!polygon.empty() && twice_area(ring) > -2.0 * 12) continue;  // holes of less than 12 cells are gaps
-    const Ring corners = simplified(ring, 0.75);
-    if (corners.size() < 3) continue;
+    Ring corners = simplified(ring, 1.0);
+    if (corners.size() < 3) corners = ring;  // a strip of one cell
     std::vector<Vec3> loop;
     for (const Corner& c : corners)
       loop.push_back(origin + (low.x() + (c.first - margin) * cell) * u + (low.y() + (c.second - margin) * cell) * v);

@@ -55,12 +55,12 @@ void record(const Selection& selection, Summary& summary) {
 
 /// One pass over the source with the plane of each point.
 template <class Body>
-void with_planes_of_points(PointSource& source, const Reach& reach, const VoxelGrid& grid, const Survey& survey,
-                           const Context& context, Body body) {
+void with_planes_of_points(PointSource& source, const Reach& reach, const VoxelGrid& grid, bool only_sure,
+                           const Survey& survey, const Context& context, Body body) {
   std::vector<int> plane_of_point;
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     plane_of_point.resize(block.size());
-    assign_points(reach, grid, block, plane_of_point, context);
+    assign_points(reach, grid, block, only_sure, plane_of_point, context);
     body(block, plane_of_point);
     context.progress(std::min(1.0, static_cast<double>(first + block.size()) / static_cast<double>(survey.points)));
   });
@@ -125,7 +125,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     Stage stage(context, summary, "refit");
     const Reach reach = find_reach(model, grid, cells, use_normals, context);
     PlaneSums points(model, result.scale);
-    with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
+    with_planes_of_points(source, reach, grid, true, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
       drop_near_edges(reach, grid, block, plane, context);
       points.add(block, plane, seen.duplicate);
     });
@@ -142,7 +142,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     const std::vector<int> index_of = describe_planes(model, sums, grid, space, result, context);
     const Reach reach = find_reach(model, grid, cells, use_normals, context);
     PlaneSums points(model, result.scale);
-    with_planes_of_points(source, reach, grid, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
+    with_planes_of_points(source, reach, grid, false, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
       points.add(block, plane, {});
       for (int& p : plane) p = p < 0 ? -1 : index_of[p];
       if (sink) sink(block.positions, plane);

@@ -60,7 +60,7 @@ struct Scene {
   std::vector<int> assign(const PointCloud& points) const {
     const Reach reach = find_reach(model, grid, cells, false, context);
     std::vector<int> plane(points.size());
-    assign_points(reach, grid, points, plane, context);
+    assign_points(reach, grid, points, false, plane, context);
     return plane;
   }
 };

@@ -203,7 +203,7 @@ TEST(DataCost, CountsStandardErrorsAlongEachAxis) {
   EXPECT_NEAR(tilt_chi2(p, tilted(0.03, 0)), 9.0, 1e-6);
   EXPECT_NEAR(tilt_chi2(p, tilted(0, 0.03)), 2.25, 1e-6);
   EXPECT_NEAR(tilt_chi2(p, -tilted(0.01, 0.02)), 2.0, 1e-6);
-  EXPECT_NEAR(data_cost(p, tilted(0.03, 0)), 0.5, 1e-6);
+  EXPECT_NEAR(data_cost(p, tilted(0.03, 0)), 1.0, 1e-6);
   EXPECT_LT(data_cost(p, tilted(0.01, 0)), 0.02);
   double last = -1;
   for (double t = 0; t < 1; t += 0.01) {
