@@ -10,7 +10,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kNodes = 4000;
+constexpr std::size_t kWork = 8'000'000;  // candidates looked at, over all nodes
 
 /// A subproblem: the first `decided` frames of the branching order are open or closed.
 struct Node {
@@ -70,7 +70,8 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
   root.bound = bound_of(p, root.state);
   std::priority_queue<Node> open;
   open.push(root);
-  for (std::size_t n = 0; n < kNodes && !open.empty(); ++n) {
+  const std::size_t nodes = kWork / (1 + static_cast<std::size_t>(p.patches()) * p.frames());
+  for (std::size_t n = 0; n < nodes && !open.empty(); ++n) {
     if ((n & 63) == 0) context.check();
     const Node node = open.top();
     if (node.bound >= upper || node.decided == order.size()) break;

@@ -41,7 +41,7 @@ Energy energy_of(const SelectionProblem& problem, const Labels& labels);
 Labels solve_local(const SelectionProblem& problem, const Context& context, const Labels& start = {});
 
 /// A lower bound on the energy of any selection: branch and bound on frames, without the smoothness term,
-/// cut off after a fixed number of nodes.
+/// cut off after a fixed amount of work.
 double lower_bound(const SelectionProblem& problem, double upper, const Context& context);
 
 struct ExactSolution {
