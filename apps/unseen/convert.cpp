@@ -5,10 +5,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "flags.h"
-#include "interrupt.h"
-#include "progress.h"
-#include "unseen/io/config.h"
+#include "session.h"
 #include "unseen/io/describe.h"
 #include "unseen/io/points.h"
 #include "unseen/io/write_points.h"
@@ -26,20 +23,12 @@ struct Arguments {
 
 int run(Arguments& args) {
   OptionTable table = io::describe(args.read);
-  resolve(table, args.common.config_file, "convert", args.given);
-  if (args.common.dump_config) {
-    fmt::print("{}", io::dump_config(table, "convert"));
-    return kSolved;
-  }
+  if (resolve_or_dump(table, args.common, "convert", args.given)) return kSolved;
   require(args.in, "IN");
   require(args.out, "OUT");
 
-  Interrupt interrupt;
-  Progress progress(args.common.quiet);
-  Context context;
-  progress.attach(context);
-  context.stop = interrupt.token();
-  context.threads = args.common.threads;
+  Session session(args.common);
+  Context& context = session.context;
 
   const auto source = io::open_points(args.in, args.read);
   Summary summary;
@@ -49,7 +38,7 @@ int run(Arguments& args) {
   }
   for (const std::string& note : source->info().notes) context.warn(note);
   summary.warnings = context.take_warnings();
-  progress.warn(summary.warnings);
+  session.progress.warn(summary.warnings);
   if (args.common.json) {
     fmt::print("{}", report::summary_json(summary));
   } else if (!args.common.quiet) {

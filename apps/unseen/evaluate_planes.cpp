@@ -6,12 +6,9 @@
 #include <memory>
 
 #include "commands.h"
-#include "flags.h"
-#include "interrupt.h"
-#include "progress.h"
+#include "session.h"
 #include "unseen/core/error.h"
 #include "unseen/io/add_to_result.h"
-#include "unseen/io/config.h"
 #include "unseen/io/mesh.h"
 #include "unseen/io/points.h"
 #include "unseen/planes/evaluate.h"
@@ -143,20 +140,12 @@ void compare(const Scored& scored, const Arguments& args, report::PlanesEvaluati
 
 int run(Arguments& args) {
   OptionTable table = args.table();
-  resolve(table, args.common.config_file, "evaluate", args.given);
-  if (args.common.dump_config) {
-    fmt::print("{}", io::dump_config(table, "evaluate"));
-    return kSolved;
-  }
+  if (resolve_or_dump(table, args.common, "evaluate", args.given)) return kSolved;
   require(args.result, "OUT");
   require(args.truth, "--truth TRUTH");
 
-  Interrupt interrupt;
-  Progress progress(args.common.quiet);
-  Context context;
-  progress.attach(context);
-  context.stop = interrupt.token();
-  context.threads = args.common.threads;
+  Session session(args.common);
+  Context& context = session.context;
 
   const Scored scored = read_result(args.result);
   report::PlanesEvaluation e;
@@ -174,7 +163,7 @@ int run(Arguments& args) {
       fs::is_directory(args.result) ? fs::path(args.result) : fs::path(args.result).parent_path();
   const std::string json = report::evaluation_json(e);
   io::add_to_result(folder, "evaluation.json", json);
-  progress.clear();
+  session.progress.clear();
   if (args.common.json) {
     fmt::print("{}", json);
   } else if (!args.common.quiet) {

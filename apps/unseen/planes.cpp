@@ -10,11 +10,8 @@
 #include <optional>
 
 #include "commands.h"
-#include "flags.h"
-#include "interrupt.h"
-#include "progress.h"
+#include "session.h"
 #include "unseen/core/error.h"
-#include "unseen/io/config.h"
 #include "unseen/io/describe.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/points.h"
@@ -111,21 +108,13 @@ void write_files(const planes::Arrangement& a, const Arguments& args, const Opti
 
 int run(Arguments& args) {
   OptionTable table = args.table();
-  resolve(table, args.common.config_file, "planes", args.given);
-  if (args.common.dump_config) {
-    fmt::print("{}", io::dump_config(table, "planes"));
-    return kSolved;
-  }
+  if (resolve_or_dump(table, args.common, "planes", args.given)) return kSolved;
   require(args.input, "CLOUD");
   require(args.out, "-o OUT");
   args.read.seed = static_cast<std::uint64_t>(args.options.seed);
 
-  Interrupt interrupt;
-  Progress progress(args.common.quiet);
-  Context context;
-  progress.attach(context);
-  context.stop = interrupt.token();
-  context.threads = args.common.threads;
+  Session session(args.common);
+  Context& context = session.context;
 
   const auto source = io::open_points(args.input, args.read);
   io::OutputFolder out(args.out);
@@ -141,8 +130,8 @@ int run(Arguments& args) {
   add_notes(source->info(), a.summary);
   write_files(a, args, table, streamed, out, context);
   context.check();
-  progress.warn(a.summary.warnings);
-  progress.warn(out.commit());
+  session.progress.warn(a.summary.warnings);
+  session.progress.warn(out.commit());
 
   if (args.common.json) {
     fmt::print("{}", report::summary_json(a.summary));

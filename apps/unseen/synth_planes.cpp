@@ -5,10 +5,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "flags.h"
-#include "interrupt.h"
-#include "progress.h"
-#include "unseen/io/config.h"
+#include "session.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/write_points.h"
 #include "unseen/planes/synth.h"
@@ -28,19 +25,11 @@ struct Arguments {
 
 int run(Arguments& args) {
   OptionTable table = planes::describe(args.options);
-  resolve(table, args.common.config_file, "synth", args.given);
-  if (args.common.dump_config) {
-    fmt::print("{}", io::dump_config(table, "synth"));
-    return kSolved;
-  }
+  if (resolve_or_dump(table, args.common, "synth", args.given)) return kSolved;
   require(args.out, "-o DIR");
 
-  Interrupt interrupt;
-  Progress progress(args.common.quiet);
-  Context context;
-  progress.attach(context);
-  context.stop = interrupt.token();
-  context.threads = args.common.threads;
+  Session session(args.common);
+  Context& context = session.context;
 
   io::OutputFolder out(args.out);
   Summary summary;
@@ -60,8 +49,8 @@ int run(Arguments& args) {
       {"points", scene.cloud.size()}, {"planes", scene.planes.size()}, {"frames", scene.axes.size()}};
   summary.warnings = context.take_warnings();
   context.check();
-  progress.warn(summary.warnings);
-  progress.warn(out.commit());
+  session.progress.warn(summary.warnings);
+  session.progress.warn(out.commit());
   if (args.common.json) {
     fmt::print("{}", report::summary_json(summary));
   } else if (!args.common.quiet) {
