@@ -29,7 +29,7 @@ std::vector<std::int8_t> sides(const Reach& reach, const VoxelGrid& grid, const 
   const std::size_t k = candidates.size();
   std::vector<double> above(k * k, 0.0), below(k * k, 0.0);
   const double clear = kClear * reach.tolerance[voxel];
-  grid.for_neighbours(grid.keys[voxel], voxels_within(cells, grid, voxel, kReach), [&](int i) {
+  grid.for_neighbours(voxel, voxels_within(cells, grid, voxel, kReach), [&](int i) {
     for (std::size_t a = 0; a < k; ++a) {
       if (plane_of_cell[i] != candidates[a].plane) continue;
       for (std::size_t b = 0; b < k; ++b) {
@@ -84,7 +84,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
       std::vector<ReachedPlane>& list = lists[i].candidates;
       const Vec3 center = grid.center_of(grid.keys[i]);
       const double farthest = reach.tolerance[i] + 0.87 * grid.edge;
-      grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i, kReach), [&](int k) {
+      grid.for_neighbours(i, voxels_within(cells, grid, i, kReach), [&](int k) {
         const int p = plane_of_cell[k];
         if (p < 0 || std::any_of(list.begin(), list.end(), [&](const ReachedPlane& r) { return r.plane == p; })) return;
         const Plane& plane = reach.planes[p];

@@ -20,12 +20,12 @@ struct Level {
   std::vector<int> parent;        // of each voxel of level 0
 };
 
-/// Moments of everything within `radius` of `center`.
-Moments gather(const VoxelGrid& grid, const VoxelKey& key, const Vec3& center, double radius) {
+/// Moments of everything within `radius` of `center`, a point of `voxel`.
+Moments gather(const VoxelGrid& grid, std::size_t voxel, const Vec3& center, double radius) {
   double n = 0;
   Vec3 first = Vec3::Zero();
   Mat3 second = Mat3::Zero();
-  grid.for_neighbours(key, 2, [&](int i) {
+  grid.for_neighbours(voxel, 2, [&](int i) {
     const Moments& m = grid.moments[i];
     const Vec3 d = m.mean - center;
     if (d.squaredNorm() > radius * radius) return;
@@ -95,8 +95,7 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
       const Vec3& center = grid.moments[i].mean;
       for (int l = 0; l < kLevels; ++l) {
         const VoxelGrid& g = l == 0 ? grid : levels[l].grid;
-        const VoxelKey& key = l == 0 ? grid.keys[i] : g.keys[levels[l].parent[i]];
-        const Moments m = gather(g, key, center, 2.0 * g.edge);
+        const Moments m = gather(g, l == 0 ? i : levels[l].parent[i], center, 2.0 * g.edge);
         if (m.count < least_count(space)) continue;
         if (l > 0) cells.reach[i] = reach_for(m.count, 2.0 * g.edge, 2.0 * grid.edge, space);
         const PlaneFit fit = fit_plane(m, space);

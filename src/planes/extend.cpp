@@ -23,7 +23,7 @@ void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const
   std::vector<char> waiting(grid.size(), 0);
   std::vector<int> frontier;
   const auto wake = [&](int from) {
-    grid.for_neighbours(grid.keys[from], voxels_within(cells, grid, from), [&](int i) {
+    grid.for_neighbours(from, voxels_within(cells, grid, from), [&](int i) {
       if (part_of[i] >= 0 || waiting[i]) return;
       waiting[i] = 1;
       frontier.push_back(i);
@@ -39,7 +39,7 @@ void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const
       waiting[i] = 0;
       double nearest = kOnPlane * cells.tolerance[i];
       int to = -1;
-      grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i), [&](int k) {
+      grid.for_neighbours(i, voxels_within(cells, grid, i), [&](int k) {
         const int p = part_of[k];
         if (p < 0 || p == to) return;
         const double distance = std::abs(planes[p].signed_distance(grid.moments[i].mean));

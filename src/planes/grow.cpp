@@ -45,7 +45,7 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
     for (std::size_t at = 0; at < region.size(); ++at) {
       const int cell = region[at];
       const Vec3 from = grid.moments[cell].mean;
-      grid.for_neighbours(grid.keys[cell], voxels_within(cells, grid, cell), [&](int i) {
+      grid.for_neighbours(cell, voxels_within(cells, grid, cell), [&](int i) {
         if (taken[i] || seen[i] == mark || cells.normal[i].isZero()) return;
         const Vec3& to = grid.moments[i].mean;
         const double reach = std::max(cells.reach[cell], cells.reach[i]);

@@ -61,7 +61,7 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
   std::set<std::pair<int, int>> adjoining, neighbours;
   for (std::size_t c = 0; c < coarse.size(); ++c)
     for (const Member& a : members[c])
-      coarse.for_neighbours(coarse.keys[c], static_cast<int>(a.reach / coarse.edge), [&](int o) {
+      coarse.for_neighbours(c, static_cast<int>(a.reach / coarse.edge), [&](int o) {
         for (const Member& b : members[o])
           if (a.patch != b.patch && a.box.exteriorDistance(b.box) < a.reach) {
             adjoining.insert(std::minmax(a.patch, b.patch));

@@ -123,7 +123,7 @@ CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& s
   }
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (region_of[i] < 0) continue;
-    grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i), [&](int k) {
+    grid.for_neighbours(i, voxels_within(cells, grid, i), [&](int k) {
       if (region_of[k] < 0 || region_of[k] == region_of[i]) return;
       if ((grid.moments[k].mean - grid.moments[i].mean).norm() > cells.reach[i]) return;
       regions[region_of[i]].adjacent.insert(region_of[k]);
@@ -203,7 +203,7 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     double allowed = (1.0 - kRimShare + 1e-9) * total;  // points that may be left unexplained
     for (const int i : regions[r]) {
       bool found = false;
-      grid.for_neighbours(grid.keys[i], voxels_within(cells, grid, i, kRimReach), [&](int k) {
+      grid.for_neighbours(i, voxels_within(cells, grid, i, kRimReach), [&](int k) {
         const int o = region_of[k];
         if (found || o < 0 || o == r || size[o] <= size[r]) return;
         found = std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];

@@ -39,6 +39,11 @@ Mat3 symmetric(const std::array<std::int64_t, 6>& s, double unit) {
   return m * unit;
 }
 
+/// A voxel's place in the mask of its block.
+std::uint64_t bit_of(const VoxelKey& k) {
+  return std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
+}
+
 bool block_order(const VoxelKey& a, const VoxelKey& b) {
   const auto block = [](const VoxelKey& k) { return VoxelKey{k[0] >> 2, k[1] >> 2, k[2] >> 2}; };
   const VoxelKey ba = block(a), bb = block(b);
@@ -58,8 +63,7 @@ VoxelSums& VoxelSums::operator+=(const VoxelSums& o) {
 void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip) {
   const double scale = 1.0 / edge_;
   VoxelKey last{};
-  std::size_t at = 0;
-  bool have_last = false;
+  VoxelSums* at = nullptr;
   for (std::size_t i = 0; i < block.size(); ++i) {
     const Vec3& p = block.positions[i];
     if (!p.allFinite() || (!skip.empty() && skip[i])) continue;
@@ -73,12 +77,11 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip) {
       key[a] = static_cast<std::int32_t>(cell);
       q[a] = static_cast<std::int64_t>((cells - cell) * kSteps);
     }
-    if (!have_last || key != last) {
-      at = slot(key);
+    if (at == nullptr || key != last) {
+      at = &sums_of(key);
       last = key;
-      have_last = true;
     }
-    VoxelSums& sums = sums_[at];
+    VoxelSums& sums = *at;
     ++sums.count;
     for (int a = 0; a < 3; ++a) sums.first[a] += q[a];
     add_outer(sums.second, q);
@@ -93,37 +96,43 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip) {
 }
 
 void VoxelBuilder::join(const VoxelBuilder& other) {
-  for (std::size_t i = 0; i < other.keys_.size(); ++i) sums_[slot(other.keys_[i])] += other.sums_[i];
+  for (std::size_t i = 0; i < other.sums_.size(); ++i) sums_of(other.keys()[i]) += other.sums_[i];
 }
 
-std::size_t VoxelBuilder::slot(const VoxelKey& key) {
-  if (2 * (keys_.size() + 1) > table_.size()) grow();
-  const std::size_t mask = table_.size() - 1;
-  for (std::size_t i = hash(key) & mask;; i = (i + 1) & mask) {
-    if (table_[i] == 0) {
-      keys_.push_back(key);
-      sums_.emplace_back();
-      table_[i] = static_cast<std::uint32_t>(keys_.size());
-      return keys_.size() - 1;
-    }
-    if (keys_[table_[i] - 1] == key) return table_[i] - 1;
+VoxelSums& VoxelBuilder::sums_of(const VoxelKey& key) {
+  const std::size_t at = table_.insert(key);
+  if (at == sums_.size()) sums_.emplace_back();
+  return sums_[at];
+}
+
+std::size_t KeyTable::slot(const VoxelKey& key) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t i = hash(key) & mask;
+  while (slots_[i] != 0 && keys_[slots_[i] - 1] != key) i = (i + 1) & mask;
+  return i;
+}
+
+int KeyTable::find(const VoxelKey& key) const {
+  return slots_.empty() ? -1 : static_cast<int>(slots_[slot(key)]) - 1;
+}
+
+std::size_t KeyTable::insert(const VoxelKey& key) {
+  if (2 * (keys_.size() + 1) > slots_.size()) grow();
+  const std::size_t at = slot(key);
+  if (slots_[at] == 0) {
+    keys_.push_back(key);
+    slots_[at] = static_cast<std::uint32_t>(keys_.size());
   }
+  return slots_[at] - 1;
 }
 
-void VoxelBuilder::grow() {
-  table_.assign(std::max<std::size_t>(1024, 2 * table_.size()), 0);
-  const std::size_t mask = table_.size() - 1;
-  for (std::size_t k = 0; k < keys_.size(); ++k) {
-    std::size_t i = hash(keys_[k]) & mask;
-    while (table_[i] != 0) i = (i + 1) & mask;
-    table_[i] = static_cast<std::uint32_t>(k + 1);
-  }
+void KeyTable::grow() {
+  slots_.assign(std::max<std::size_t>(1024, 2 * slots_.size()), 0);
+  for (std::size_t k = 0; k < keys_.size(); ++k) slots_[slot(keys_[k])] = static_cast<std::uint32_t>(k + 1);
 }
-
-std::size_t VoxelGrid::KeyHash::operator()(const VoxelKey& k) const { return hash(k); }
 
 VoxelGrid::VoxelGrid(const VoxelBuilder& builder) : edge(builder.edge()) {
-  const std::size_t n = builder.keys().size();
+  const std::size_t n = builder.sums().size();
   std::vector<std::uint32_t> order(n);
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -152,22 +161,39 @@ VoxelGrid::VoxelGrid(const VoxelBuilder& builder) : edge(builder.edge()) {
 }
 
 void VoxelGrid::index_blocks() {
+  block_of_.reserve(keys.size());
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
     const VoxelKey& k = keys[i];
-    const VoxelKey block = {k[0] >> 2, k[1] >> 2, k[2] >> 2};
-    if (blocks_.empty() || blocks_.back().key != block) {
-      block_of_key_.emplace(block, static_cast<std::int32_t>(blocks_.size()));
-      blocks_.push_back({block, 0, i, {}});
-    }
-    blocks_.back().mask |= std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
+    const std::size_t b = block_table_.insert({k[0] >> 2, k[1] >> 2, k[2] >> 2});
+    if (b == blocks_.size()) blocks_.push_back({0, i, {}});
+    blocks_[b].mask |= bit_of(k);
+    block_of_.push_back(static_cast<std::uint32_t>(b));
   }
-  for (Block& b : blocks_)
-    for (int n = 0; n < 27; ++n) b.around[n] = block_at({b.key[0] + n / 9 - 1, b.key[1] + n / 3 % 3 - 1, b.key[2] + n % 3 - 1});
+  link_blocks();
 }
 
-int VoxelGrid::block_at(const VoxelKey& block_key) const {
-  const auto it = block_of_key_.find(block_key);
-  return it == block_of_key_.end() ? -1 : it->second;
+/// Blocks are sorted, so that the first block of each column beside one moves only forward with it.
+void VoxelGrid::link_blocks() {
+  const std::vector<VoxelKey>& key = block_table_.keys();
+  constexpr int kSide = 2 * kRings + 1;
+  std::array<std::size_t, kSide * kSide> column{};
+  std::array<std::vector<std::uint32_t>, kRings + 1> rings;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const auto [x, y, z] = key[b];
+    for (auto& ring : rings) ring.clear();
+    for (int dx = -kRings; dx <= kRings; ++dx)
+      for (int dy = -kRings; dy <= kRings; ++dy) {
+        std::size_t& at = column[(dx + kRings) * kSide + dy + kRings];
+        while (at < key.size() && key[at] < VoxelKey{x + dx, y + dy, z - kRings}) ++at;
+        for (std::size_t o = at; o < key.size() && key[o] <= VoxelKey{x + dx, y + dy, z + kRings}; ++o)
+          rings[std::max({std::abs(dx), std::abs(dy), std::abs(key[o][2] - z)})].push_back(static_cast<std::uint32_t>(o));
+      }
+    for (int r = 0; r <= kRings; ++r) {
+      blocks_[b].ring[r] = static_cast<std::uint32_t>(linked_.size());
+      linked_.insert(linked_.end(), rings[r].begin(), rings[r].end());
+    }
+    blocks_[b].ring[kRings + 1] = static_cast<std::uint32_t>(linked_.size());
+  }
 }
 
 VoxelKey VoxelGrid::key_of(const Vec3& p) const {
@@ -179,9 +205,10 @@ VoxelKey VoxelGrid::key_of(const Vec3& p) const {
 Vec3 VoxelGrid::center_of(const VoxelKey& k) const { return Vec3(k[0] + 0.5, k[1] + 0.5, k[2] + 0.5) * edge; }
 
 int VoxelGrid::find(const VoxelKey& key) const {
-  int found = -1;
-  for_neighbours(key, 0, [&](int i) { found = i; });
-  return found;
+  const int b = block_table_.find({key[0] >> 2, key[1] >> 2, key[2] >> 2});
+  if (b < 0) return -1;
+  const std::uint64_t bit = bit_of(key), mask = blocks_[b].mask;
+  return mask & bit ? static_cast<int>(blocks_[b].first) + count_bits(mask & (bit - 1)) : -1;
 }
 
 VoxelGrid VoxelGrid::coarser(std::vector<int>& parent) const {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <unordered_map>
 #include <vector>
 
 #include "planes/moments.h"
@@ -27,6 +25,23 @@ struct VoxelSums {
   VoxelSums& operator+=(const VoxelSums& o);
 };
 
+/// A growing list of distinct keys, found again in constant time (open addressing).
+class KeyTable {
+ public:
+  const std::vector<VoxelKey>& keys() const { return keys_; }
+  /// Index of a key, or −1.
+  int find(const VoxelKey& key) const;
+  /// Index of a key, which is appended if it is new.
+  std::size_t insert(const VoxelKey& key);
+
+ private:
+  std::size_t slot(const VoxelKey& key) const;
+  void grow();
+
+  std::vector<VoxelKey> keys_;
+  std::vector<std::uint32_t> slots_;  ///< index + 1 into keys_, 0 = free; at most half are taken
+};
+
 /// Gathers points into voxels. Filled tile by tile; two builders of one grid can be joined exactly.
 class VoxelBuilder {
  public:
@@ -38,17 +53,15 @@ class VoxelBuilder {
   void join(const VoxelBuilder& other);
 
   double edge() const { return edge_; }
-  const std::vector<VoxelKey>& keys() const { return keys_; }
+  const std::vector<VoxelKey>& keys() const { return table_.keys(); }
   const std::vector<VoxelSums>& sums() const { return sums_; }
 
  private:
-  std::size_t slot(const VoxelKey& key);
-  void grow();
+  VoxelSums& sums_of(const VoxelKey& key);
 
   double edge_;
-  std::vector<VoxelKey> keys_;
+  KeyTable table_;
   std::vector<VoxelSums> sums_;
-  std::vector<std::uint32_t> table_;  ///< open addressing: index + 1 into keys_, 0 = free
 };
 
 /// Occupied voxels in a fixed order (by blocks of 4³), found by key in constant time.
@@ -62,10 +75,10 @@ class VoxelGrid {
   Vec3 center_of(const VoxelKey& key) const;
   /// Index of the voxel with this key, or −1 if it is empty.
   int find(const VoxelKey& key) const;
-  /// Calls f(index) for each occupied voxel at most `reach` voxels away along every axis, itself included,
-  /// in the order of the grid's blocks.
+  /// Calls f(index) for each occupied voxel at most `reach` (≤ 16) voxels away from `voxel` along every axis,
+  /// itself included; blocks nearer to it come first.
   template <class F>
-  void for_neighbours(const VoxelKey& key, int reach, F&& f) const;
+  void for_neighbours(std::size_t voxel, int reach, F&& f) const;
   /// The same points in voxels of twice the edge; `parent` gets each voxel's index in the coarser grid.
   VoxelGrid coarser(std::vector<int>& parent) const;
 
@@ -75,61 +88,61 @@ class VoxelGrid {
   std::vector<Mat3> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
 
  private:
+  static constexpr int kRings = 4;  ///< how many blocks away neighbours are linked
   struct Block {
-    VoxelKey key;             ///< voxel keys / 4, rounded down
     std::uint64_t mask = 0;   ///< which of its 4³ voxels are occupied, x slowest
     std::uint32_t first = 0;  ///< index of its first voxel
-    std::array<std::int32_t, 27> around;  ///< the blocks beside it, −1 where there is none; itself in the middle
-  };
-  struct KeyHash {
-    std::size_t operator()(const VoxelKey& k) const;
+    std::array<std::uint32_t, kRings + 2> ring{};  ///< linked_[ring[r]…ring[r+1]): occupied blocks r blocks away
   };
   void index_blocks();
-  int block_at(const VoxelKey& block_key) const;
+  void link_blocks();
   template <class F>
-  static void visit(const Block& block, const VoxelKey& low, const VoxelKey& high, F&& f);
+  static void visit(const Block& block, const VoxelKey& block_key, const VoxelKey& low, const VoxelKey& high, F&& f);
 
-  std::vector<Block> blocks_;
-  std::unordered_map<VoxelKey, std::int32_t, KeyHash> block_of_key_;
+  KeyTable block_table_;
+  std::vector<Block> blocks_;              ///< parallel to block_table_.keys()
+  std::vector<std::uint32_t> linked_;      ///< indices of blocks
+  std::vector<std::uint32_t> block_of_;    ///< of each voxel
 };
 
 /// Reads the source once and sums its points into voxels of the given edge (m).
 VoxelBuilder summarise(PointSource& source, double edge, const std::vector<bool>& duplicate, Context& context);
 
-template <class F>
-void VoxelGrid::visit(const Block& block, const VoxelKey& low, const VoxelKey& high, F&& f) {
-  // The part of the 4³ bits that lies in the box, axis by axis.
-  const auto range = [&](int a) {
-    return std::pair{std::max(low[a] - 4 * block.key[a], 0), std::min(high[a] - 4 * block.key[a], 3)};
-  };
-  const auto ones = [](int count) { return (std::uint64_t{1} << count) - 1; };  // count < 64
-  const auto [x0, x1] = range(0);
-  const auto [y0, y1] = range(1);
-  const auto [z0, z1] = range(2);
-  const std::uint64_t row = (ones(z1 - z0 + 1) << z0) * 0x1111u;                      // z, in four rows
-  const std::uint64_t slab = row & (ones(4 * (y1 - y0 + 1)) << (4 * y0)) & 0xffffu;    // y
-  const std::uint64_t cube = slab * 0x0001000100010001u;                              // in four slabs
-  const std::uint64_t in_x = x1 - x0 == 3 ? ~std::uint64_t{0} : ones(16 * (x1 - x0 + 1)) << (16 * x0);
-  for (std::uint64_t bits = block.mask & cube & in_x; bits != 0; bits &= bits - 1) {
-    const std::uint64_t below = (bits & -bits) - 1;
-    f(static_cast<int>(block.first + __builtin_popcountll(block.mask & below)));
-  }
+/// Bits set; without the instruction, which the oldest 64-bit machines lack.
+inline int count_bits(std::uint64_t x) {
+  x -= (x >> 1) & 0x5555555555555555u;
+  x = (x & 0x3333333333333333u) + ((x >> 2) & 0x3333333333333333u);
+  x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<int>((x * 0x0101010101010101u) >> 56);
 }
 
 template <class F>
-void VoxelGrid::for_neighbours(const VoxelKey& key, int reach, F&& f) const {
+void VoxelGrid::visit(const Block& block, const VoxelKey& block_key, const VoxelKey& low, const VoxelKey& high, F&& f) {
+  // The part of the 4³ bits that lies in the box, axis by axis.
+  std::array<int, 3> from, to;
+  for (int a = 0; a < 3; ++a) {
+    from[a] = std::max(low[a] - 4 * block_key[a], 0);
+    to[a] = std::min(high[a] - 4 * block_key[a], 3);
+    if (from[a] > to[a]) return;
+  }
+  const auto ones = [](int count) { return (std::uint64_t{1} << count) - 1; };  // count < 64
+  const std::uint64_t row = (ones(to[2] - from[2] + 1) << from[2]) * 0x1111u;                       // z, in four rows
+  const std::uint64_t slab = row & (ones(4 * (to[1] - from[1] + 1)) << (4 * from[1])) & 0xffffu;    // y
+  const std::uint64_t cube = slab * 0x0001000100010001u;                                           // in four slabs
+  const std::uint64_t in_x = to[0] - from[0] == 3 ? ~std::uint64_t{0} : ones(16 * (to[0] - from[0] + 1)) << (16 * from[0]);
+  for (std::uint64_t bits = block.mask & cube & in_x; bits != 0; bits &= bits - 1)
+    f(static_cast<int>(block.first + count_bits(block.mask & ((bits & -bits) - 1))));
+}
+
+template <class F>
+void VoxelGrid::for_neighbours(std::size_t voxel, int reach, F&& f) const {
+  const VoxelKey& key = keys[voxel];
   const VoxelKey low = {key[0] - reach, key[1] - reach, key[2] - reach};
   const VoxelKey high = {key[0] + reach, key[1] + reach, key[2] + reach};
-  const VoxelKey home = {key[0] >> 2, key[1] >> 2, key[2] >> 2};
-  const int center = block_at(home);
-  for (int x = low[0] >> 2; x <= high[0] >> 2; ++x)
-    for (int y = low[1] >> 2; y <= high[1] >> 2; ++y)
-      for (int z = low[2] >> 2; z <= high[2] >> 2; ++z) {
-        const int dx = x - home[0], dy = y - home[1], dz = z - home[2];
-        const bool beside = center >= 0 && std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) <= 1;
-        const int block = beside ? blocks_[center].around[9 * (dx + 1) + 3 * (dy + 1) + dz + 1] : block_at({x, y, z});
-        if (block >= 0) visit(blocks_[block], low, high, f);
-      }
+  const Block& home = blocks_[block_of_[voxel]];
+  const std::uint32_t end = home.ring[std::min((reach + 3) / 4, kRings) + 1];
+  for (std::uint32_t l = home.ring[0]; l < end; ++l)
+    visit(blocks_[linked_[l]], block_table_.keys()[linked_[l]], low, high, f);
 }
 
 }  // namespace unseen::planes

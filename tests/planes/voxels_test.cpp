@@ -155,12 +155,12 @@ TEST(Voxels, NeighboursEqualBruteForce) {
   const VoxelGrid grid = test::grid_of(sample(3000, 8), 0.07);
   Random random(9);
   for (int probe = 0; probe < 200; ++probe) {
-    const int reach = static_cast<int>(random.index(4));
-    VoxelKey key = grid.keys[random.index(grid.size())];
-    if (probe % 4 == 0) key = {key[0] + 1, key[1] - 2, key[2] + 1};  // may be empty
+    const int reach = static_cast<int>(random.index(17));
+    const std::size_t voxel = random.index(grid.size());
+    const VoxelKey& key = grid.keys[voxel];
     std::vector<int> found;
-    grid.for_neighbours(key, reach, [&](int i) { found.push_back(i); });
-    EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+    grid.for_neighbours(voxel, reach, [&](int i) { found.push_back(i); });
+    std::sort(found.begin(), found.end());
     std::vector<int> expected;
     for (std::size_t i = 0; i < grid.size(); ++i) {
       int farthest = 0;
