@@ -22,23 +22,26 @@ struct VoxelReach {
   std::vector<std::int8_t> side;
 };
 
+/// A voxel that supports a plane near the one in question.
+struct Support {
+  int plane, voxel;
+};
+
 /// On which side of each other candidate the supporting voxels of a candidate lie.
-std::vector<std::int8_t> sides(const Reach& reach, const VoxelGrid& grid, const Cells& cells,
-                               const std::vector<int>& plane_of_cell, std::size_t voxel,
-                               const std::vector<ReachedPlane>& candidates) {
+std::vector<std::int8_t> sides(const Reach& reach, const VoxelGrid& grid, double clear,
+                               const std::vector<Support>& near, const std::vector<ReachedPlane>& candidates) {
   const std::size_t k = candidates.size();
   std::vector<double> above(k * k, 0.0), below(k * k, 0.0);
-  const double clear = kClear * reach.tolerance[voxel];
-  grid.for_neighbours(voxel, voxels_within(cells, grid, voxel, kReach), [&](int i) {
+  for (const Support& s : near)
     for (std::size_t a = 0; a < k; ++a) {
-      if (plane_of_cell[i] != candidates[a].plane) continue;
+      if (s.plane != candidates[a].plane) continue;
       for (std::size_t b = 0; b < k; ++b) {
-        const double d = reach.planes[candidates[b].plane].signed_distance(grid.moments[i].mean);
-        if (d > clear) above[a * k + b] += grid.moments[i].count;
-        if (d < -clear) below[a * k + b] += grid.moments[i].count;
+        const double d = reach.planes[candidates[b].plane].signed_distance(grid.moments[s.voxel].mean);
+        if (d > clear) above[a * k + b] += grid.moments[s.voxel].count;
+        if (d < -clear) below[a * k + b] += grid.moments[s.voxel].count;
       }
+      break;
     }
-  });
   std::vector<std::int8_t> side(k * k, 0);
   for (std::size_t i = 0; i < k * k; ++i) {
     if (above[i] > 0 && below[i] < kStray * above[i]) side[i] = 1;
@@ -67,32 +70,42 @@ bool beyond_end(const Reach& reach, int voxel, std::size_t a, const Vec3& p) {
 
 }  // namespace
 
+void update_planes(Reach& reach, const Model& model) {
+  reach.planes.clear();
+  reach.noise.clear();
+  for (const Part& part : model.parts) {
+    reach.planes.push_back(model.plane(part));
+    reach.noise.push_back(model.surfaces[part.surface].support.fit.rms);
+  }
+}
+
 Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, bool use_point_normals,
                  const Context& context) {
   Reach reach;
   reach.use_point_normals = use_point_normals;
   reach.tolerance = cells.tolerance;
   std::vector<int> plane_of_cell(grid.size(), -1);
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    reach.planes.push_back(model.plane(model.parts[p]));
-    reach.noise.push_back(model.surfaces[model.parts[p].surface].support.fit.rms);
+  update_planes(reach, model);
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
     for (const int i : model.parts[p].cells) plane_of_cell[i] = static_cast<int>(p);
-  }
   std::vector<VoxelReach> lists(grid.size());
   parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
+    std::vector<Support> near;
     for (std::size_t i = begin; i < end; ++i) {
+      near.clear();
+      grid.for_neighbours(i, voxels_within(cells, grid, i, kReach), [&](int k) {
+        if (plane_of_cell[k] >= 0) near.push_back({plane_of_cell[k], k});
+      });
       std::vector<ReachedPlane>& list = lists[i].candidates;
       const Vec3 center = grid.center_of(grid.keys[i]);
       const double farthest = reach.tolerance[i] + 0.87 * grid.edge;
-      grid.for_neighbours(i, voxels_within(cells, grid, i, kReach), [&](int k) {
-        const int p = plane_of_cell[k];
-        if (p < 0 || std::any_of(list.begin(), list.end(), [&](const ReachedPlane& r) { return r.plane == p; })) return;
+      for (const auto& [p, voxel] : near) {
+        if (std::any_of(list.begin(), list.end(), [p = p](const ReachedPlane& r) { return r.plane == p; })) continue;
         const Plane& plane = reach.planes[p];
-        if (std::abs(plane.signed_distance(center)) > farthest) return;
-        list.push_back({p, compare_normal(cells, i, plane.normal)});
-      });
+        if (std::abs(plane.signed_distance(center)) <= farthest) list.push_back({p, compare_normal(cells, i, plane.normal)});
+      }
       std::sort(list.begin(), list.end(), [](const ReachedPlane& a, const ReachedPlane& b) { return a.plane < b.plane; });
-      if (list.size() > 1) lists[i].side = sides(reach, grid, cells, plane_of_cell, i, list);
+      if (list.size() > 1) lists[i].side = sides(reach, grid, kClear * reach.tolerance[i], near, list);
     }
   });
   reach.first.push_back(0);

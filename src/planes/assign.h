@@ -37,6 +37,9 @@ struct Reach {
 Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, bool use_point_normals,
                  const Context& context);
 
+/// Takes over the model's planes after a refit: which voxels they reach stays as it was.
+void update_planes(Reach& reach, const Model& model);
+
 /// Plane of each point of a block: among those that reach it, and that its voxel's normal or its own does not
 /// contradict (45°), first those that do not end before it at another plane, then those that the normals speak
 /// for, then the nearest; −1 = none, or not finite. With `only_sure`, those of the first rank alone.

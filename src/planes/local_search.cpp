@@ -2,9 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
-#include <queue>
+#include <span>
 
 #include "planes/selection.h"
 #include "unseen/core/random.h"
@@ -22,103 +21,23 @@ constexpr std::size_t kSwaps = 24;  // frames that may replace another, the most
 class Search {
  public:
   Search(const SelectionProblem& problem, const Context& context)
-      : p_(problem), context_(context), near_(problem.patches()) {
+      : p_(problem),
+        context_(context),
+        offers_(offers_of(problem)),
+        cost_((problem.lambda * problem.data).cwiseMin(kImpossible)),
+        irregularity_((1.0 - problem.lambda) * problem.irregularity),
+        near_(problem.patches()) {
     for (const auto& [a, b] : p_.neighbours) {
       near_[a].push_back(b);
       near_[b].push_back(a);
     }
   }
 
-  double cost(int j, int k) const {
-    const double d = p_.data(j, k);
-    return std::isfinite(d) ? p_.lambda * d : kImpossible;
-  }
-
-  double opening(const std::vector<int>& open, int k) const {
-    double sum = 0;
-    for (const int o : open) sum += p_.irregularity(o, k);
-    return (1.0 - p_.lambda) * sum;
-  }
-
-  double total(const std::vector<int>& open, const Labels& labels) const {
-    double sum = 0;
-    for (std::size_t a = 0; a < open.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b) sum += (1.0 - p_.lambda) * p_.irregularity(open[a], open[b]);
-    for (int j = 0; j < p_.patches(); ++j) sum += cost(j, labels[j]);
-    for (const auto& [a, b] : p_.neighbours) sum += differs(a, labels[a], b, labels[b]);
-    return sum;
-  }
-
-  double differs(int a, int ka, int b, int kb) const {
-    return p_.orientation(a, ka) == p_.orientation(b, kb) ? 0.0 : p_.smoothness();
-  }
-
-  /// Labels for a set of open frames: cheapest data first, then moves of patches and of connected parts of one
-  /// orientation, until none lowers the energy.
-  Labels label(const std::vector<int>& open) const {
-    Labels labels(p_.patches());
-    for (int j = 0; j < p_.patches(); ++j)
-      labels[j] = *std::min_element(open.begin(), open.end(), [&](int a, int b) { return cost(j, a) < cost(j, b); });
-    if (p_.neighbours.empty() || p_.smoothness() == 0.0) return labels;
-    for (int sweep = 0; sweep < 20; ++sweep) {
-      bool changed = false;
-      for (int j = 0; j < p_.patches(); ++j) changed = move({j}, open, labels) || changed;
-      for (const std::vector<int>& part : parts(labels))
-        if (part.size() > 1) changed = move(part, open, labels) || changed;
-      if (!changed) break;
-    }
-    return labels;
-  }
-
-  /// Gives a set of patches the one frame that lowers the energy most, if any does.
-  bool move(const std::vector<int>& part, const std::vector<int>& open, Labels& labels) const {
-    std::vector<char> inside;
-    if (part.size() > 1) {
-      inside.assign(labels.size(), 0);
-      for (const int j : part) inside[j] = 1;
-    }
-    const auto local = [&](int k) {  // k < 0: as it is
-      double sum = 0;
-      for (const int j : part) {
-        const int kj = k < 0 ? labels[j] : k;
-        sum += cost(j, kj);
-        for (const int n : near_[j]) {
-          const bool in = part.size() > 1 ? inside[n] != 0 : n == j;
-          const int kn = in && k >= 0 ? k : labels[n];
-          sum += (in ? 0.5 : 1.0) * differs(j, kj, n, kn);
-        }
-      }
-      return sum;
-    };
-    double best = local(-1) - 1e-12;
-    int to = -1;
-    for (const int k : open)
-      if (const double sum = local(k); sum < best) {
-        best = sum;
-        to = k;
-      }
-    if (to < 0) return false;
-    for (const int j : part) labels[j] = to;
-    return true;
-  }
-
-  std::vector<std::vector<int>> parts(const Labels& labels) const {
-    std::vector<char> seen(labels.size(), 0);
-    std::vector<std::vector<int>> result;
-    for (std::size_t j = 0; j < labels.size(); ++j) {
-      if (seen[j]) continue;
-      seen[j] = 1;
-      std::vector<int> part = {static_cast<int>(j)};
-      for (std::size_t at = 0; at < part.size(); ++at)
-        for (const int n : near_[part[at]])
-          if (!seen[n] && differs(part[at], labels[part[at]], n, labels[n]) == 0.0) {
-            seen[n] = 1;
-            part.push_back(n);
-          }
-      result.push_back(std::move(part));
-    }
-    return result;
-  }
+  struct State {
+    std::vector<int> open;
+    Labels labels;
+    double energy = std::numeric_limits<double>::infinity();
+  };
 
   std::vector<int> fixed() const {
     std::vector<int> open;
@@ -127,57 +46,28 @@ class Search {
     return open;
   }
 
-  /// What the open frames offer each patch: the cheapest, and what is left if that one goes.
-  struct Offers {
-    std::vector<int> first;
-    std::vector<double> best, second;
-  };
-  Offers offers(const std::vector<int>& open) const {
-    Offers o{std::vector<int>(p_.patches(), -1), std::vector<double>(p_.patches(), kImpossible),
-             std::vector<double>(p_.patches(), kImpossible)};
-    for (const int k : open)
-      for (int j = 0; j < p_.patches(); ++j) {
-        const double c = cost(j, k);
-        if (c < o.best[j]) {
-          o.second[j] = o.best[j];
-          o.best[j] = c;
-          o.first[j] = k;
-        } else if (c < o.second[j]) {
-          o.second[j] = c;
-        }
-      }
-    return o;
-  }
-
   /// Adds, drops or swaps the frame that gains most, again and again, judging by data and irregularity alone.
   std::vector<int> open_frames(std::vector<int> open) const {
     while (true) {
       context_.check();
-      const Offers now = offers(open);
+      const Best now = best_of(open);
+      const std::vector<double> opening = openings(open);
       double best = -1e-8;
       int add = -1, drop = -1;
-      std::vector<std::pair<double, int>> additions;
-      for (int k = 0; k < p_.frames(); ++k) {
-        if (std::find(open.begin(), open.end(), k) != open.end()) continue;
-        double change = opening(open, k);
-        for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - now.best[j]);
-        additions.emplace_back(change, k);
-        if (change < best) {
-          best = change;
-          add = k;
-          drop = -1;
-        }
+      std::vector<std::pair<double, int>> additions = ranked_additions(open, now, opening);
+      if (!additions.empty() && additions.front().first < best) {
+        best = additions.front().first;
+        add = additions.front().second;
       }
-      std::sort(additions.begin(), additions.end());
       if (additions.size() > kSwaps) additions.resize(kSwaps);
       for (const int o : open) {
         if (p_.fixed[o] || open.size() == 1) continue;
-        std::vector<double> left = now.best;
-        double without = -opening(open, o);  // irregularity(o, o) is zero
-        for (int j = 0; j < p_.patches(); ++j)
-          if (now.first[j] == o) {
-            left[j] = now.second[j];
-            without += now.second[j] - now.best[j];
+        std::vector<double> left = now.cost;
+        double without = -opening[o];  // irregularity(o, o) is zero
+        for (const Offer& offer : offers_[o])
+          if (now.frame[offer.patch] == o) {
+            left[offer.patch] = now.second[offer.patch];
+            without += now.second[offer.patch] - now.cost[offer.patch];
           }
         if (without < best) {
           best = without;
@@ -185,8 +75,7 @@ class Search {
           drop = o;
         }
         for (const auto& [gain, k] : additions) {
-          double change = without + opening(open, k) - (1.0 - p_.lambda) * p_.irregularity(o, k);
-          for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - left[j]);
+          const double change = without + opening[k] - irregularity_(o, k) - saved(k, left);
           if (change < best) {
             best = change;
             add = k;
@@ -200,16 +89,17 @@ class Search {
     }
   }
 
-  struct State {
-    std::vector<int> open;
-    Labels labels;
-    double energy = std::numeric_limits<double>::infinity();
-  };
-
-  /// Labels a set of frames and closes those that no patch took.
-  State evaluate(const std::vector<int>& open) const {
+  /// Labels a set of frames and closes those that no patch took. The energy stays infinite where all these
+  /// frames could not get below `upper` even without smoothness.
+  State evaluate(const std::vector<int>& open, double upper = std::numeric_limits<double>::infinity()) const {
     State s;
-    s.labels = label(open);
+    Best now = best_of(open);
+    double bound = std::accumulate(now.cost.begin(), now.cost.end(), 0.0);
+    for (std::size_t a = 0; a < open.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) bound += irregularity_(open[a], open[b]);
+    if (bound >= upper) return s;
+    s.labels = std::move(now.frame);
+    relax(open, s.labels);
     std::vector<char> used(p_.frames(), 0);
     for (const int k : s.labels) used[k] = 1;
     for (const int k : open)
@@ -225,7 +115,7 @@ class Search {
       State best = state;
       const auto attempt = [&](const std::vector<int>& open) {
         if (open.empty()) return;
-        State s = evaluate(open);
+        State s = evaluate(open, best.energy - 1e-8);
         if (s.energy < best.energy - 1e-8) best = std::move(s);
       };
       for (const int k : state.open) {
@@ -247,18 +137,9 @@ class Search {
 
   /// The closed frames whose opening beside `open` changes data and irregularity for the better, best first.
   std::vector<int> promising(const std::vector<int>& open, std::size_t count) const {
-    const Offers now = offers(open);
-    std::vector<std::pair<double, int>> ranked;
-    for (int k = 0; k < p_.frames(); ++k) {
-      if (std::find(open.begin(), open.end(), k) != open.end()) continue;
-      double change = opening(open, k);
-      for (int j = 0; j < p_.patches(); ++j) change += std::min(0.0, cost(j, k) - now.best[j]);
-      ranked.emplace_back(change, k);
-    }
-    std::sort(ranked.begin(), ranked.end());
-    if (ranked.size() > count) ranked.resize(count);
     std::vector<int> result;
-    for (const auto& [change, k] : ranked) result.push_back(k);
+    for (const auto& [change, k] : ranked_additions(open, best_of(open), openings(open)))
+      if (result.size() < count) result.push_back(k);
     return result;
   }
 
@@ -288,19 +169,155 @@ class Search {
         if (set >> i & 1) open.push_back(pool[i]);
       if (open.empty()) continue;
       if ((set & 63) == 0) context_.check();
-      State s = evaluate(open);
+      State s = evaluate(open, best.energy - 1e-8);
       if (s.energy < best.energy - 1e-8) best = std::move(s);
     }
     return best;
   }
 
  private:
+  /// What open frames offer each patch at best: the frame, its cost, and what is left if it goes.
+  struct Best {
+    Labels frame;  ///< the first open one where none offers anything
+    std::vector<double> cost, second;
+  };
+  Best best_of(const std::vector<int>& open) const {
+    const std::vector<double> nothing(p_.patches(), kImpossible);
+    Best best{Labels(p_.patches(), open.empty() ? -1 : open.front()), nothing, nothing};
+    for (const int k : open)
+      for (const Offer& o : offers_[k])
+        if (o.cost < best.cost[o.patch]) {
+          best.second[o.patch] = best.cost[o.patch];
+          best.cost[o.patch] = o.cost;
+          best.frame[o.patch] = k;
+        } else if (o.cost < best.second[o.patch]) {
+          best.second[o.patch] = o.cost;
+        }
+    return best;
+  }
+
+  /// Irregularity that opening each frame adds beside the open ones.
+  std::vector<double> openings(const std::vector<int>& open) const {
+    std::vector<double> sum(p_.frames(), 0.0);
+    for (const int o : open)
+      for (int k = 0; k < p_.frames(); ++k) sum[k] += irregularity_(k, o);
+    return sum;
+  }
+
+  /// Data cost that a frame takes off what patches pay now.
+  double saved(int k, const std::vector<double>& now) const {
+    double sum = 0;
+    for (const Offer& o : offers_[k]) sum += std::max(0.0, now[o.patch] - o.cost);
+    return sum;
+  }
+
+  /// Change of data and irregularity by each closed frame, the best first.
+  std::vector<std::pair<double, int>> ranked_additions(const std::vector<int>& open, const Best& now,
+                                                       const std::vector<double>& opening) const {
+    std::vector<char> is_open(p_.frames(), 0);
+    for (const int k : open) is_open[k] = 1;
+    std::vector<std::pair<double, int>> ranked;
+    for (int k = 0; k < p_.frames(); ++k)
+      if (!is_open[k]) ranked.emplace_back(opening[k] - saved(k, now.cost), k);
+    const auto middle = ranked.begin() + static_cast<std::ptrdiff_t>(std::min(kSwaps, ranked.size()));
+    std::partial_sort(ranked.begin(), middle, ranked.end());
+    ranked.erase(middle, ranked.end());
+    return ranked;
+  }
+
+  double differs(int a, int ka, int b, int kb) const {
+    return p_.orientation(a, ka) == p_.orientation(b, kb) ? 0.0 : p_.smoothness();
+  }
+
+  double total(const std::vector<int>& open, const Labels& labels) const {
+    double sum = 0;
+    for (std::size_t a = 0; a < open.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) sum += irregularity_(open[a], open[b]);
+    for (int j = 0; j < p_.patches(); ++j) sum += cost_(j, labels[j]);
+    for (const auto& [a, b] : p_.neighbours) sum += differs(a, labels[a], b, labels[b]);
+    return sum;
+  }
+
+  /// Moves of patches and of connected parts of one orientation, until none lowers the energy.
+  void relax(const std::vector<int>& open, Labels& labels) const {
+    if (p_.neighbours.empty() || p_.smoothness() == 0.0) return;
+    std::vector<char> inside(p_.patches(), 0);
+    for (int sweep = 0; sweep < 20; ++sweep) {
+      bool changed = false;
+      for (int j = 0; j < p_.patches(); ++j) changed = move({&j, 1}, open, inside, labels) || changed;
+      for (const std::vector<int>& part : parts(labels))
+        if (part.size() > 1) changed = move(part, open, inside, labels) || changed;
+      if (!changed) break;
+    }
+  }
+
+  /// Gives a set of patches the one frame that lowers the energy most, if any does. `inside` is all zero.
+  bool move(std::span<const int> part, const std::vector<int>& open, std::vector<char>& inside, Labels& labels) const {
+    for (const int j : part) inside[j] = 1;
+    double pays = 0;  // smoothness within the part stays as it is: zero
+    for (const int j : part) {
+      pays += cost_(j, labels[j]);
+      for (const int n : near_[j])
+        if (!inside[n]) pays += differs(j, labels[j], n, labels[n]);
+    }
+    double best = pays - 1e-12;
+    int to = -1;
+    for (const int k : open) {
+      double sum = 0;
+      for (const int j : part) sum += cost_(j, k);
+      for (std::size_t i = 0; sum < best && i < part.size(); ++i)
+        for (const int n : near_[part[i]])
+          if (inside[n]) {
+            sum += 0.5 * differs(part[i], k, n, k);
+          } else {
+            sum += differs(part[i], k, n, labels[n]);
+          }
+      if (sum < best) {
+        best = sum;
+        to = k;
+      }
+    }
+    for (const int j : part) inside[j] = 0;
+    if (to < 0) return false;
+    for (const int j : part) labels[j] = to;
+    return true;
+  }
+
+  std::vector<std::vector<int>> parts(const Labels& labels) const {
+    std::vector<char> seen(labels.size(), 0);
+    std::vector<std::vector<int>> result;
+    for (std::size_t j = 0; j < labels.size(); ++j) {
+      if (seen[j]) continue;
+      seen[j] = 1;
+      std::vector<int> part = {static_cast<int>(j)};
+      for (std::size_t at = 0; at < part.size(); ++at)
+        for (const int n : near_[part[at]])
+          if (!seen[n] && differs(part[at], labels[part[at]], n, labels[n]) == 0.0) {
+            seen[n] = 1;
+            part.push_back(n);
+          }
+      result.push_back(std::move(part));
+    }
+    return result;
+  }
+
   const SelectionProblem& p_;
   const Context& context_;
+  const Offers offers_;
+  const Eigen::MatrixXd cost_;          ///< λ·D, patches × frames, with kImpossible for infinite
+  const Eigen::MatrixXd irregularity_;  ///< (1−λ)·Irr
   std::vector<std::vector<int>> near_;
 };
 
 }  // namespace
+
+Offers offers_of(const SelectionProblem& problem) {
+  Offers offers(problem.frames());
+  for (int k = 0; k < problem.frames(); ++k)
+    for (int j = 0; j < problem.patches(); ++j)
+      if (std::isfinite(problem.data(j, k))) offers[k].push_back({j, problem.lambda * problem.data(j, k)});
+  return offers;
+}
 
 Energy energy_of(const SelectionProblem& problem, const Labels& labels) {
   Energy e;

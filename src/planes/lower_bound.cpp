@@ -20,14 +20,12 @@ struct Node {
   bool operator<(const Node& o) const { return bound > o.bound; }  // smallest bound on top
 };
 
-double bound_of(const SelectionProblem& p, const std::vector<char>& state) {
-  double sum = 0;
-  for (int j = 0; j < p.patches(); ++j) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < p.frames(); ++k)
-      if (state[k] != 2) least = std::min(least, p.data(j, k));
-    sum += p.lambda * least;
-  }
+double bound_of(const SelectionProblem& p, const Offers& offers, const std::vector<char>& state) {
+  std::vector<double> least(p.patches(), std::numeric_limits<double>::infinity());
+  for (int k = 0; k < p.frames(); ++k)
+    if (state[k] != 2)
+      for (const Offer& o : offers[k]) least[o.patch] = std::min(least[o.patch], o.cost);
+  double sum = std::accumulate(least.begin(), least.end(), 0.0);
   for (int a = 0; a < p.frames(); ++a)
     if (state[a] == 1)
       for (int b = 0; b < a; ++b)
@@ -39,6 +37,7 @@ double bound_of(const SelectionProblem& p, const std::vector<char>& state) {
 
 double lower_bound(const SelectionProblem& p, double upper, const Context& context) {
   if (p.patches() == 0) return energy_of(p, {}).total();
+  const Offers offers = offers_of(p);
   // Branch first on the frames that matter most: those whose absence costs the most data.
   std::vector<double> weight(p.frames(), 0.0);
   for (int j = 0; j < p.patches(); ++j) {
@@ -67,7 +66,7 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
     }
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight[a] > weight[b]; });
-  root.bound = bound_of(p, root.state);
+  root.bound = bound_of(p, offers, root.state);
   std::priority_queue<Node> open;
   open.push(root);
   const std::size_t nodes = kWork / (1 + static_cast<std::size_t>(p.patches()) * p.frames());
@@ -80,7 +79,7 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
       Node child = node;
       child.state[order[node.decided]] = state;
       ++child.decided;
-      child.bound = std::max(node.bound, bound_of(p, child.state));
+      child.bound = std::max(node.bound, bound_of(p, offers, child.state));
       if (child.bound < upper) open.push(std::move(child));
     }
   }

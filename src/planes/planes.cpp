@@ -121,9 +121,10 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     extend_parts(model, grid, cells, context);
   }
   std::vector<Moments> sums(model.parts.size());
+  Reach reach;
   {
     Stage stage(context, summary, "refit");
-    const Reach reach = find_reach(model, grid, cells, use_normals, context);
+    reach = find_reach(model, grid, cells, use_normals, context);
     PlaneSums points(model, result.scale);
     with_planes_of_points(source, reach, grid, true, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
       drop_near_edges(reach, grid, block, plane, context);
@@ -136,11 +137,11 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     }
     for (std::size_t s = 0; s < on_surface.size(); ++s) update_support(model.surfaces[s], on_surface[s], space);
     refit(model);
+    update_planes(reach, model);
   }
   {
     Stage stage(context, summary, "assignment");
     const std::vector<int> index_of = describe_planes(model, sums, grid, space, result, context);
-    const Reach reach = find_reach(model, grid, cells, use_normals, context);
     PlaneSums points(model, result.scale);
     with_planes_of_points(source, reach, grid, false, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
       points.add(block, plane, {});

@@ -118,10 +118,10 @@ OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Ve
 SelectionProblem make_problem(const Patches& patches, const std::vector<int>& members,
                               const std::vector<OrientationFrame>& frames, std::size_t fixed,
                               const AngleSet& angles, const std::vector<Vec3>& locals, double lambda,
-                              double patch_angle) {
+                              double patch_angle, const SelectionProblem& known) {
   SelectionProblem p;
   p.lambda = lambda;
-  const int rows = static_cast<int>(members.size()), cols = static_cast<int>(frames.size());
+  const int rows = static_cast<int>(members.size()), cols = static_cast<int>(frames.size()), old = known.frames();
   p.data.resize(rows, cols);
   p.orientation.setConstant(rows, cols, -1);
   p.irregularity.setZero(cols, cols);
@@ -145,7 +145,8 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
       p.data(j, k) = c.cost;
       if (c.local >= 0) p.orientation(j, k) = orientation_of[k][c.local];
     }
-  for (int a = 0; a < cols; ++a)
+  p.irregularity.topLeftCorner(old, old) = known.irregularity;
+  for (int a = old; a < cols; ++a)
     for (int b = 0; b < a; ++b)
       p.irregularity(a, b) = p.irregularity(b, a) = irregularity(frames[a], frames[b], locals, angles);
   std::vector<int> row_of(patches.patches.size(), -1);
@@ -188,10 +189,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     std::vector<OrientationFrame> frames = s.frames;
     for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle))
       frames.push_back(std::move(f));
+    SelectionProblem problem;
     const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
-      return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle);
+      return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem);
     };
-    SelectionProblem problem = problem_of(frames);
+    problem = problem_of(frames);
     Labels labels = solve_local(problem, context);
     // Fit the chosen frames to their patches and choose again, while that lowers the energy (as PEARL does).
     for (int i = 0; i < 3; ++i) {

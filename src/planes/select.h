@@ -30,11 +30,12 @@ std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::
 OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
                              const std::vector<std::pair<const Patch*, int>>& members);
 
-/// The numbers of a selection problem for some patches and frames.
+/// The numbers of a selection problem for some patches and frames. `known` is the problem of the same patches
+/// and the first of these frames, if it was made before.
 SelectionProblem make_problem(const Patches& patches, const std::vector<int>& members,
                               const std::vector<OrientationFrame>& frames, std::size_t fixed,
                               const AngleSet& angles, const std::vector<Vec3>& locals, double lambda,
-                              double patch_angle);
+                              double patch_angle, const SelectionProblem& known = {});
 
 /// Coarse to fine (thesis Algorithm 1): the largest patches choose their frames first; these stay, serve
 /// smaller patches, and are not changed by them.

@@ -31,6 +31,14 @@ struct Energy {
   double total() const { return data + irregularity + smoothness; }
 };
 
+/// What a frame offers a patch: a candidate of cost λ·D. Most pairs of patch and frame have none.
+struct Offer {
+  int patch;
+  double cost;
+};
+using Offers = std::vector<std::vector<Offer>>;  ///< per frame, patches ascending
+Offers offers_of(const SelectionProblem& problem);
+
 using Labels = std::vector<int>;  ///< frame of each patch
 
 Energy energy_of(const SelectionProblem& problem, const Labels& labels);

@@ -157,10 +157,10 @@ VoxelGrid::VoxelGrid(const VoxelBuilder& builder) : edge(builder.edge()) {
     moments.push_back(m);
     if (any_normals) normals.push_back(symmetric(s.normal, 1.0 / (kNormalSteps * kNormalSteps)));
   }
-  index_blocks();
+  index_blocks(kRings);
 }
 
-void VoxelGrid::index_blocks() {
+void VoxelGrid::index_blocks(int rings) {
   block_of_.reserve(keys.size());
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
     const VoxelKey& k = keys[i];
@@ -169,28 +169,28 @@ void VoxelGrid::index_blocks() {
     blocks_[b].mask |= bit_of(k);
     block_of_.push_back(static_cast<std::uint32_t>(b));
   }
-  link_blocks();
+  link_blocks(rings);
 }
 
 /// Blocks are sorted, so that the first block of each column beside one moves only forward with it.
-void VoxelGrid::link_blocks() {
+void VoxelGrid::link_blocks(int rings) {
   const std::vector<VoxelKey>& key = block_table_.keys();
-  constexpr int kSide = 2 * kRings + 1;
-  std::array<std::size_t, kSide * kSide> column{};
-  std::array<std::vector<std::uint32_t>, kRings + 1> rings;
+  const int side = 2 * rings + 1;
+  std::vector<std::size_t> column(side * side, 0);
+  std::array<std::vector<std::uint32_t>, kRings + 1> found;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const auto [x, y, z] = key[b];
-    for (auto& ring : rings) ring.clear();
-    for (int dx = -kRings; dx <= kRings; ++dx)
-      for (int dy = -kRings; dy <= kRings; ++dy) {
-        std::size_t& at = column[(dx + kRings) * kSide + dy + kRings];
-        while (at < key.size() && key[at] < VoxelKey{x + dx, y + dy, z - kRings}) ++at;
-        for (std::size_t o = at; o < key.size() && key[o] <= VoxelKey{x + dx, y + dy, z + kRings}; ++o)
-          rings[std::max({std::abs(dx), std::abs(dy), std::abs(key[o][2] - z)})].push_back(static_cast<std::uint32_t>(o));
+    for (auto& ring : found) ring.clear();
+    for (int dx = -rings; dx <= rings; ++dx)
+      for (int dy = -rings; dy <= rings; ++dy) {
+        std::size_t& at = column[(dx + rings) * side + dy + rings];
+        while (at < key.size() && key[at] < VoxelKey{x + dx, y + dy, z - rings}) ++at;
+        for (std::size_t o = at; o < key.size() && key[o] <= VoxelKey{x + dx, y + dy, z + rings}; ++o)
+          found[std::max({std::abs(dx), std::abs(dy), std::abs(key[o][2] - z)})].push_back(static_cast<std::uint32_t>(o));
       }
     for (int r = 0; r <= kRings; ++r) {
       blocks_[b].ring[r] = static_cast<std::uint32_t>(linked_.size());
-      linked_.insert(linked_.end(), rings[r].begin(), rings[r].end());
+      linked_.insert(linked_.end(), found[r].begin(), found[r].end());
     }
     blocks_[b].ring[kRings + 1] = static_cast<std::uint32_t>(linked_.size());
   }
@@ -218,7 +218,7 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent) const {
   for (const VoxelKey& k : keys) grid.keys.push_back(up(k));
   std::sort(grid.keys.begin(), grid.keys.end(), block_order);
   grid.keys.erase(std::unique(grid.keys.begin(), grid.keys.end()), grid.keys.end());
-  grid.index_blocks();
+  grid.index_blocks(kCoarserRings);
   grid.moments.resize(grid.size());
   if (!normals.empty()) grid.normals.assign(grid.size(), Mat3::Zero());
   parent.resize(size());

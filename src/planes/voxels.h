@@ -75,8 +75,8 @@ class VoxelGrid {
   Vec3 center_of(const VoxelKey& key) const;
   /// Index of the voxel with this key, or −1 if it is empty.
   int find(const VoxelKey& key) const;
-  /// Calls f(index) for each occupied voxel at most `reach` (≤ 16) voxels away from `voxel` along every axis,
-  /// itself included; blocks nearer to it come first.
+  /// Calls f(index) for each occupied voxel at most `reach` (≤ 16; ≤ 8 in a coarser grid) voxels away from
+  /// `voxel` along every axis, itself included; blocks nearer to it come first.
   template <class F>
   void for_neighbours(std::size_t voxel, int reach, F&& f) const;
   /// The same points in voxels of twice the edge; `parent` gets each voxel's index in the coarser grid.
@@ -88,14 +88,14 @@ class VoxelGrid {
   std::vector<Mat3> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
 
  private:
-  static constexpr int kRings = 4;  ///< how many blocks away neighbours are linked
+  static constexpr int kRings = 4, kCoarserRings = 2;  ///< how many blocks away neighbours are linked
   struct Block {
     std::uint64_t mask = 0;   ///< which of its 4³ voxels are occupied, x slowest
     std::uint32_t first = 0;  ///< index of its first voxel
     std::array<std::uint32_t, kRings + 2> ring{};  ///< linked_[ring[r]…ring[r+1]): occupied blocks r blocks away
   };
-  void index_blocks();
-  void link_blocks();
+  void index_blocks(int rings);
+  void link_blocks(int rings);
   template <class F>
   static void visit(const Block& block, const VoxelKey& block_key, const VoxelKey& low, const VoxelKey& high, F&& f);
 
