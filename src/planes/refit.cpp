@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +12,9 @@ namespace {
 
 constexpr int kIterations = 20;
 constexpr double kFarthest = 1.5 * kPi / 180.0;  // rad: a refit that turns a frame farther went astray
+constexpr double kEnough = 0.5;  // share of a support's points that may stand for it
+constexpr double kLoose = 3.0 * kPi / 180.0;  // rad: what no surface determines stays about where it was
+constexpr double kRedundant = 1e-11;  // share of a relation's own gradient that others do not explain
 constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no surface is known better than this
 
 }  // namespace
@@ -43,73 +46,76 @@ namespace {
 struct Turns {
   std::vector<Mat3> information;
   std::vector<Vec3> gradient;
-  double largest = 0;  // weight
 };
 
-Turns turns_of(const Model& model) {
-  Turns t{std::vector<Mat3>(model.frames.size(), Mat3::Zero()), std::vector<Vec3>(model.frames.size(), Vec3::Zero()), 0.0};
+Turns turns_of(const Model& model, const std::vector<OrientationFrame>& start) {
+  Turns t;
+  for (std::size_t f = 0; f < model.frames.size(); ++f) {
+    const Eigen::AngleAxisd turn(Mat3(model.frames[f].axes * start[f].axes.transpose()));
+    t.information.push_back(Mat3::Identity() / (kLoose * kLoose));
+    t.gradient.push_back(turn.angle() * turn.axis() / (kLoose * kLoose));
+  }
   for (const Surface& surface : model.surfaces) {
     const Patch& s = surface.support;
     for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), s.variance_u + kFloor * kFloor,
                                                 s.variance_v + kFloor * kFloor)) {
       t.information[surface.frame] += r.weight * r.jacobian * r.jacobian.transpose();
       t.gradient[surface.frame] += r.weight * r.value * r.jacobian;
-      t.largest = std::max(t.largest, r.weight);
     }
   }
-  // What no surface determines stays where it is.
-  for (Mat3& i : t.information) i.diagonal().array() += 1e-9 * t.largest;
   return t;
 }
 
-/// One step of Gauss–Newton with Lagrange multipliers: [H Jᵀ; J 0] [w; μ] = [−g; −c], over the frames that
-/// constraints tie together; the others turn on their own.
+/// One step of Gauss–Newton with Lagrange multipliers, [H Jᵀ; J 0] [w; μ] = [−g; −c]. H has a block a frame, so
+/// that J H⁻¹ Jᵀ μ = c − J H⁻¹ g remains to be solved; relations that follow from others make it singular.
 std::vector<Vec3> step_of(const Model& model, const Turns& t) {
-  std::vector<int> column(model.frames.size(), -1);
-  int columns = 0;
-  for (const Constraint& c : model.constraints)
-    for (const int f : {c.a, c.b})
-      if (column[f] < 0) {
-        column[f] = columns;
-        columns += 3;
-      }
-  const int total = columns + static_cast<int>(model.constraints.size());
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(total, total);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(total);
+  std::vector<Mat3> inverse;
+  std::vector<Vec3> step;
   for (std::size_t f = 0; f < model.frames.size(); ++f) {
-    if (column[f] < 0) continue;
-    system.block<3, 3>(column[f], column[f]) = t.information[f];
-    right.segment<3>(column[f]) = -t.gradient[f];
+    inverse.push_back(t.information[f].inverse());
+    step.push_back(-(inverse[f] * t.gradient[f]));
   }
-  for (std::size_t i = 0; i < model.constraints.size(); ++i) {
+  const int count = static_cast<int>(model.constraints.size());
+  if (count == 0) return step;
+  std::vector<std::vector<std::pair<int, Vec3>>> of_frame(model.frames.size());  // constraint, its gradient
+  Eigen::VectorXd right(count), scale(count);
+  for (int i = 0; i < count; ++i) {
     const Constraint& c = model.constraints[i];
     const ConstraintResidual r = residual_of(c, model.frames[c.a].axes, model.frames[c.b].axes);
-    const int row = columns + static_cast<int>(i);
-    // Scaled so that multipliers are of the size of the turns.
-    system.block<1, 3>(row, column[c.a]) = t.largest * r.jacobian.transpose();
-    system.block<1, 3>(row, column[c.b]) = -t.largest * r.jacobian.transpose();
-    right[row] = -t.largest * r.value;
+    of_frame[c.a].emplace_back(i, r.jacobian);
+    of_frame[c.b].emplace_back(i, -r.jacobian);
+    right[i] = r.value + r.jacobian.dot(step[c.a] - step[c.b]);
+    scale[i] = 1.0 / std::sqrt(r.jacobian.dot((inverse[c.a] + inverse[c.b]) * r.jacobian));
   }
-  system.topRightCorner(columns, total - columns) = system.bottomLeftCorner(total - columns, columns).transpose();
-  const Eigen::VectorXd solution = total > 0 ? Eigen::VectorXd(system.partialPivLu().solve(right)) : right;
-  std::vector<Vec3> step;
-  for (std::size_t f = 0; f < model.frames.size(); ++f)
-    step.push_back(column[f] >= 0 ? Vec3(solution.segment<3>(column[f]))
-                                  : Vec3(-t.information[f].ldlt().solve(t.gradient[f])));
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t f = 0; f < of_frame.size(); ++f)
+    for (const auto& [i, u] : of_frame[f])
+      for (const auto& [k, v] : of_frame[f]) system(i, k) += scale[i] * u.dot(inverse[f] * v) * scale[k];
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(kRedundant);
+  solver.compute(system);
+  const Eigen::VectorXd multiplier = scale.cwiseProduct(solver.solve(scale.cwiseProduct(right)));
+  for (std::size_t f = 0; f < of_frame.size(); ++f)
+    for (const auto& [i, u] : of_frame[f]) step[f] -= inverse[f] * u * multiplier[i];
   return step;
 }
 
-/// The constrained frame that turned farthest, if any turned farther than relations may ask or if one of its
-/// relations does not hold; else −1.
+/// The constrained frame whose planes turned farthest, if any turned farther than relations may ask or if one
+/// of its relations does not hold; else −1.
 int failing_frame(const Model& model, const std::vector<OrientationFrame>& start) {
+  std::vector<double> turn(model.frames.size(), 0.0);
+  for (const Surface& s : model.surfaces) {
+    const Mat3 back = start[s.frame].axes * model.frames[s.frame].axes.transpose();
+    const double angle = line_angle(model.normal(s), back * model.normal(s));
+    turn[s.frame] = std::isfinite(angle) ? std::max(turn[s.frame], angle) : kPi;
+  }
   double worst = 0;
   int culprit = -1;
   for (const Constraint& c : model.constraints) {
     const double residual = std::abs(residual_of(c, model.frames[c.a].axes, model.frames[c.b].axes).value);
     for (const int f : {c.a, c.b}) {
-      const double turn = Eigen::AngleAxisd(Mat3(model.frames[f].axes * start[f].axes.transpose())).angle();
-      if (residual < 1e-10 && turn < kFarthest) continue;
-      const double badness = std::isfinite(turn + residual) ? turn + residual : 1e9 + f;
+      if (residual < 1e-10 && turn[f] < kFarthest) continue;
+      const double badness = std::isfinite(residual) ? turn[f] + residual : kPi + 1.0;
       if (badness <= worst) continue;
       worst = badness;
       culprit = f;
@@ -125,7 +131,7 @@ void refit(Model& model) {
   const std::vector<OrientationFrame> start = model.frames;
   while (true) {
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      const std::vector<Vec3> step = step_of(model, turns_of(model));
+      const std::vector<Vec3> step = step_of(model, turns_of(model, start));
       double farthest = 0;
       for (std::size_t f = 0; f < model.frames.size(); ++f) {
         model.frames[f].axes = turned(model.frames[f].axes, step[f]);
@@ -143,8 +149,8 @@ void refit(Model& model) {
 }
 
 void update_support(Surface& surface, const Moments& moments, const Space& space) {
-  if (moments.count < 3) return;
   Patch& s = surface.support;
+  if (moments.count < kEnough * s.moments.count) return;
   const auto plain = [](const PlaneFit& fit, double spread, double count) {
     return fit.rms * fit.rms / std::max(count * spread * spread, 1e-300);
   };

@@ -38,18 +38,22 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
   double best = kSplitGain * squared_error(whole, space);
   std::pair<std::vector<int>, std::vector<int>> parts;
   const int directions = space.is_2d() ? 1 : 8;
+  std::vector<double> along(region.size());
   for (int d = 0; d < directions; ++d) {
     const double angle = kPi * d / directions;
     const Vec3 axis = std::cos(angle) * fit.u + std::sin(angle) * fit.v;
-    std::vector<std::pair<double, int>> along;
-    for (const int i : region) along.emplace_back(axis.dot(grid.moments[i].mean), i);
-    std::sort(along.begin(), along.end());
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+      along[i] = axis.dot(grid.moments[region[i]].mean);
+      low = std::min(low, along[i]);
+      high = std::max(high, along[i]);
+    }
     constexpr int kCuts = 12;
     std::vector<Moments> slice(kCuts);  // sums between cuts at equal steps of the coordinate
-    const double low = along.front().first, step = (along.back().first - low) / kCuts;
+    const double step = (high - low) / kCuts;
     if (!(step > 0)) continue;
     const auto slice_of = [&](double x) { return std::min(kCuts - 1, static_cast<int>((x - low) / step)); };
-    for (const auto& [x, i] : along) slice[slice_of(x)] += grid.moments[i];
+    for (std::size_t i = 0; i < region.size(); ++i) slice[slice_of(along[i])] += grid.moments[region[i]];
     std::vector<Moments> above(kCuts + 1);
     for (int c = kCuts - 1; c >= 0; --c) above[c] = above[c + 1] + slice[c];
     Moments below;
@@ -62,7 +66,8 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
       if (error >= best || line_angle(a.normal, b.normal) < kSplitAngle) continue;
       best = error;
       parts = {};
-      for (const auto& [x, i] : along) (slice_of(x) < c ? parts.first : parts.second).push_back(i);
+      for (std::size_t i = 0; i < region.size(); ++i)
+        (slice_of(along[i]) < c ? parts.first : parts.second).push_back(region[i]);
     }
   }
   return parts;

@@ -44,11 +44,7 @@ std::uint64_t bit_of(const VoxelKey& k) {
   return std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
 }
 
-bool block_order(const VoxelKey& a, const VoxelKey& b) {
-  const auto block = [](const VoxelKey& k) { return VoxelKey{k[0] >> 2, k[1] >> 2, k[2] >> 2}; };
-  const VoxelKey ba = block(a), bb = block(b);
-  return ba != bb ? ba < bb : a < b;
-}
+VoxelKey block_key_of(const VoxelKey& k) { return {k[0] >> 2, k[1] >> 2, k[2] >> 2}; }
 
 }  // namespace
 
@@ -132,44 +128,58 @@ void KeyTable::grow() {
 }
 
 VoxelGrid::VoxelGrid(const VoxelBuilder& builder) : edge(builder.edge()) {
-  const std::size_t n = builder.sums().size();
-  std::vector<std::uint32_t> order(n);
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return block_order(builder.keys()[a], builder.keys()[b]);
-  });
-  keys.reserve(n);
-  moments.reserve(n);
+  const std::vector<int> place_of = place(builder.keys(), kRings);
+  moments.resize(size());
   bool any_normals = false;
   for (const VoxelSums& s : builder.sums()) any_normals = any_normals || (s.normal[0] + s.normal[3] + s.normal[5] > 0);
+  if (any_normals) normals.resize(size());
   const double unit = edge / kSteps;
-  for (const std::uint32_t i : order) {
+  for (std::size_t i = 0; i < size(); ++i) {
     const VoxelKey& key = builder.keys()[i];
     const VoxelSums& s = builder.sums()[i];
     const double count = static_cast<double>(s.count);
     // Quantisation rounds down, half a step on average.
     const Vec3 q(s.first[0] / count, s.first[1] / count, s.first[2] / count);
-    Moments m;
+    Moments& m = moments[place_of[i]];
     m.count = count;
     m.mean = Vec3(key[0], key[1], key[2]) * edge + (q + Vec3::Constant(0.5)) * unit;
     m.scatter = symmetric(s.second, unit * unit) - count * unit * unit * q * q.transpose();
-    keys.push_back(key);
-    moments.push_back(m);
-    if (any_normals) normals.push_back(symmetric(s.normal, 1.0 / (kNormalSteps * kNormalSteps)));
+    if (any_normals) normals[place_of[i]] = symmetric(s.normal, 1.0 / (kNormalSteps * kNormalSteps));
   }
-  index_blocks(kRings);
 }
 
-void VoxelGrid::index_blocks(int rings) {
-  block_of_.reserve(keys.size());
-  for (std::uint32_t i = 0; i < keys.size(); ++i) {
-    const VoxelKey& k = keys[i];
-    const std::size_t b = block_table_.insert({k[0] >> 2, k[1] >> 2, k[2] >> 2});
-    if (b == blocks_.size()) blocks_.push_back({0, i, {}});
-    blocks_[b].mask |= bit_of(k);
-    block_of_.push_back(static_cast<std::uint32_t>(b));
+std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int rings) {
+  KeyTable found;
+  std::vector<std::uint64_t> masks;
+  std::vector<std::uint32_t> found_of;
+  found_of.reserve(unordered.size());
+  for (const VoxelKey& k : unordered) {
+    const std::size_t b = found.insert(block_key_of(k));
+    if (b == masks.size()) masks.push_back(0);
+    masks[b] |= bit_of(k);
+    found_of.push_back(static_cast<std::uint32_t>(b));
+  }
+  std::vector<std::uint32_t> order(masks.size()), rank(masks.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return found.keys()[a] < found.keys()[b]; });
+  std::uint32_t count = 0;
+  blocks_.reserve(masks.size());
+  for (const std::uint32_t b : order) {
+    rank[b] = static_cast<std::uint32_t>(block_table_.insert(found.keys()[b]));
+    blocks_.push_back({masks[b], count, {}});
+    count += count_bits(masks[b]);
+  }
+  keys.resize(count);
+  block_of_.resize(count);
+  std::vector<int> place_of(unordered.size());
+  for (std::size_t i = 0; i < unordered.size(); ++i) {
+    const std::uint32_t b = rank[found_of[i]];
+    const int at = place_of[i] = blocks_[b].first + count_bits(blocks_[b].mask & (bit_of(unordered[i]) - 1));
+    keys[at] = unordered[i];
+    block_of_[at] = b;
   }
   link_blocks(rings);
+  return place_of;
 }
 
 /// Blocks are sorted, so that the first block of each column beside one moves only forward with it.
@@ -205,27 +215,24 @@ VoxelKey VoxelGrid::key_of(const Vec3& p) const {
 Vec3 VoxelGrid::center_of(const VoxelKey& k) const { return Vec3(k[0] + 0.5, k[1] + 0.5, k[2] + 0.5) * edge; }
 
 int VoxelGrid::find(const VoxelKey& key) const {
-  const int b = block_table_.find({key[0] >> 2, key[1] >> 2, key[2] >> 2});
+  const int b = block_table_.find(block_key_of(key));
   if (b < 0) return -1;
   const std::uint64_t bit = bit_of(key), mask = blocks_[b].mask;
   return mask & bit ? static_cast<int>(blocks_[b].first) + count_bits(mask & (bit - 1)) : -1;
 }
 
 VoxelGrid VoxelGrid::coarser(std::vector<int>& parent) const {
-  const auto up = [](const VoxelKey& k) { return VoxelKey{k[0] >> 1, k[1] >> 1, k[2] >> 1}; };
+  std::vector<VoxelKey> up;
+  up.reserve(size());
+  for (const VoxelKey& k : keys) up.push_back({k[0] >> 1, k[1] >> 1, k[2] >> 1});
   VoxelGrid grid;
   grid.edge = 2.0 * edge;
-  for (const VoxelKey& k : keys) grid.keys.push_back(up(k));
-  std::sort(grid.keys.begin(), grid.keys.end(), block_order);
-  grid.keys.erase(std::unique(grid.keys.begin(), grid.keys.end()), grid.keys.end());
-  grid.index_blocks(kCoarserRings);
+  parent = grid.place(up, kCoarserRings);
   grid.moments.resize(grid.size());
   if (!normals.empty()) grid.normals.assign(grid.size(), Mat3::Zero());
-  parent.resize(size());
   for (std::size_t i = 0; i < size(); ++i) {
-    const int p = parent[i] = grid.find(up(keys[i]));
-    grid.moments[p] += moments[i];
-    if (!normals.empty()) grid.normals[p] += normals[i];
+    grid.moments[parent[i]] += moments[i];
+    if (!normals.empty()) grid.normals[parent[i]] += normals[i];
   }
   return grid;
 }

@@ -94,7 +94,8 @@ class VoxelGrid {
     std::uint32_t first = 0;  ///< index of its first voxel
     std::array<std::uint32_t, kRings + 2> ring{};  ///< linked_[ring[r]…ring[r+1]): occupied blocks r blocks away
   };
-  void index_blocks(int rings);
+  /// Lays out the voxels with these keys (some may be equal) and returns the index of each.
+  std::vector<int> place(const std::vector<VoxelKey>& unordered, int rings);
   void link_blocks(int rings);
   template <class F>
   static void visit(const Block& block, const VoxelKey& block_key, const VoxelKey& low, const VoxelKey& high, F&& f);
