@@ -10,10 +10,10 @@
 namespace unseen::planes {
 namespace {
 
-constexpr int kIterations = 20;
+constexpr int kIterations = 40;
 constexpr double kFarthest = 1.5 * kPi / 180.0;  // rad: a refit that turns a frame farther went astray
 constexpr double kEnough = 0.5;  // share of a support's points that may stand for it
-constexpr double kLoose = 3.0 * kPi / 180.0;  // rad: what no surface determines stays about where it was
+constexpr double kLoose = 3.0 * kPi / 180.0;  // rad: damping of a step
 constexpr double kRedundant = 1e-11;  // share of a relation's own gradient that others do not explain
 constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no surface is known better than this
 
@@ -48,13 +48,10 @@ struct Turns {
   std::vector<Vec3> gradient;
 };
 
-Turns turns_of(const Model& model, const std::vector<OrientationFrame>& start) {
-  Turns t;
-  for (std::size_t f = 0; f < model.frames.size(); ++f) {
-    const Eigen::AngleAxisd turn(Mat3(model.frames[f].axes * start[f].axes.transpose()));
-    t.information.push_back(Mat3::Identity() / (kLoose * kLoose));
-    t.gradient.push_back(turn.angle() * turn.axis() / (kLoose * kLoose));
-  }
+Turns turns_of(const Model& model) {
+  // Levenberg's damping: what no surface determines does not turn far in one step.
+  Turns t{std::vector<Mat3>(model.frames.size(), Mat3::Identity() / (kLoose * kLoose)),
+          std::vector<Vec3>(model.frames.size(), Vec3::Zero())};
   for (const Surface& surface : model.surfaces) {
     const Patch& s = surface.support;
     for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), s.variance_u + kFloor * kFloor,
@@ -131,7 +128,7 @@ void refit(Model& model) {
   const std::vector<OrientationFrame> start = model.frames;
   while (true) {
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      const std::vector<Vec3> step = step_of(model, turns_of(model, start));
+      const std::vector<Vec3> step = step_of(model, turns_of(model));
       double farthest = 0;
       for (std::size_t f = 0; f < model.frames.size(); ++f) {
         model.frames[f].axes = turned(model.frames[f].axes, step[f]);
