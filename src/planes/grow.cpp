@@ -29,30 +29,31 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
                    [&](int a, int b) { return cells.variation[a] < cells.variation[b]; });
 
   const double cos_angle = std::cos(angle);
-  std::vector<char> taken(grid.size(), 0);
-  std::vector<int> seen(grid.size(), -1);
+  constexpr int kFree = -1, kTaken = -2;
+  std::vector<int> state(grid.size(), kFree);  // or the seed of the region that saw it last
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    if (cells.normal[i].isZero()) state[i] = kTaken;
   CellSets regions;
   std::size_t visited = 0;
   for (const int seed : order) {
     if ((++visited & 0xfff) == 0) context.progress(static_cast<double>(visited) / order.size());
-    if (taken[seed]) continue;
+    if (state[seed] == kTaken) continue;
     std::vector<int> region = {seed};
     Moments sum = grid.moments[seed];
     Vec3 normal = cells.normal[seed], center = sum.mean;
     double next_fit = 3.0 * std::max<double>(4, 1);  // cells
-    const int mark = seed;
-    seen[seed] = mark;
+    state[seed] = seed;
     for (std::size_t at = 0; at < region.size(); ++at) {
       const int cell = region[at];
       const Vec3 from = grid.moments[cell].mean;
       grid.for_neighbours(cell, voxels_within(cells, grid, cell), [&](int i) {
-        if (taken[i] || seen[i] == mark || cells.normal[i].isZero()) return;
+        if (state[i] == seed || state[i] == kTaken) return;
         const Vec3& to = grid.moments[i].mean;
         const double reach = std::max(cells.reach[cell], cells.reach[i]);
         if ((to - from).squaredNorm() > reach * reach) return;
         if (std::abs(cells.normal[i].dot(normal)) < cos_angle) return;
         if (std::abs(normal.dot(to - center)) > cells.tolerance[i]) return;
-        seen[i] = mark;
+        state[i] = seed;
         region.push_back(i);
         sum += grid.moments[i];
       });
@@ -75,7 +76,7 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
         rest += grid.moments[i];
       }
     if (kept.empty() || !is_planar(rest, fit_plane(rest, space), space, grid.edge)) continue;
-    for (const int i : kept) taken[i] = 1;
+    for (const int i : kept) state[i] = kTaken;
     std::sort(kept.begin(), kept.end());
     regions.push_back(std::move(kept));
   }

@@ -71,12 +71,14 @@ inline PlaneFit fit_plane(const Moments& m, const Space& space) {
     fit.spread_u = spread(eigen.eigenvalues()[1]);
     return fit;
   }
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen(m.scatter);
+  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
+  eigen.computeDirect(m.scatter);
   fit.normal = eigen.eigenvectors().col(0);
   fit.v = eigen.eigenvectors().col(1);
   fit.u = eigen.eigenvectors().col(2);
-  fit.rms = spread(eigen.eigenvalues()[0]);
-  fit.spread_v = spread(eigen.eigenvalues()[1]);
+  // The closed form loses small eigenvalues; along its axes they are all there.
+  fit.rms = spread(fit.normal.dot(m.scatter * fit.normal));
+  fit.spread_v = spread(fit.v.dot(m.scatter * fit.v));
   fit.spread_u = spread(eigen.eigenvalues()[2]);
   return fit;
 }

@@ -58,16 +58,26 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     it->box.extend(grid.moments[i].mean);
     it->reach = std::max(it->reach, 1.6 * cells.reach[i]);
   }
+  const double cos_angle = std::cos(angle);
   std::set<std::pair<int, int>> adjoining, neighbours;
+  std::vector<int> beside, alike;  // patches found around one member
+  const auto once = [](std::vector<int>& list, int patch) {
+    if (std::find(list.begin(), list.end(), patch) == list.end()) list.push_back(patch);
+  };
   for (std::size_t c = 0; c < coarse.size(); ++c)
-    for (const Member& a : members[c])
+    for (const Member& a : members[c]) {
+      beside.clear();
+      alike.clear();
       coarse.for_neighbours(c, static_cast<int>(a.reach / coarse.edge), [&](int o) {
-        for (const Member& b : members[o])
-          if (a.patch != b.patch && a.box.exteriorDistance(b.box) < a.reach) {
-            adjoining.insert(std::minmax(a.patch, b.patch));
-            if (line_angle(a.normal, b.normal) < angle) neighbours.insert(std::minmax(a.patch, b.patch));
-          }
+        for (const Member& b : members[o]) {
+          if (a.patch == b.patch || a.box.squaredExteriorDistance(b.box) >= a.reach * a.reach) continue;
+          once(beside, b.patch);
+          if (std::abs(a.normal.dot(b.normal)) > cos_angle) once(alike, b.patch);
+        }
       });
+      for (const int b : beside) adjoining.insert(std::minmax(a.patch, b));
+      for (const int b : alike) neighbours.insert(std::minmax(a.patch, b));
+    }
   result.adjoining.assign(adjoining.begin(), adjoining.end());
   result.neighbours.assign(neighbours.begin(), neighbours.end());
 }

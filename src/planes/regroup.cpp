@@ -98,19 +98,23 @@ double merge_loss(const Region& a, const Region& b, const Space& space, double a
 CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context) {
   CellSets result;
   while (!regions.empty()) {
-    context.check();
-    std::vector<int> region = std::move(regions.back());
-    regions.pop_back();
-    if (region.size() >= kSplitCells) {
-      auto [a, b] = best_cut(grid, space, region);
-      if (!a.empty()) {
-        regions.push_back(std::move(a));
-        regions.push_back(std::move(b));
-        continue;
+    std::vector<std::pair<std::vector<int>, std::vector<int>>> cuts(regions.size());
+    parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r)
+        if (regions[r].size() >= kSplitCells) cuts[r] = best_cut(grid, space, regions[r]);
+    });
+    CellSets parts;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      auto& [a, b] = cuts[r];
+      if (a.empty()) {
+        std::sort(regions[r].begin(), regions[r].end());
+        result.push_back(std::move(regions[r]));
+      } else {
+        parts.push_back(std::move(a));
+        parts.push_back(std::move(b));
       }
     }
-    std::sort(region.begin(), region.end());
-    result.push_back(std::move(region));
+    regions = std::move(parts);
   }
   std::sort(result.begin(), result.end());
   return result;
