@@ -19,7 +19,7 @@ constexpr double kScaleShare = 0.03;  // of the scale: rims and clutter pull a p
 /// Variance (rad²) of the tilt that a least-squares plane has along `axis`. Residuals are summed by blocks of a
 /// grid over the patch, so that noise that is correlated over up to a block's size counts as what it is
 /// (cluster-robust "sandwich" estimate: Liang & Zeger, Biometrika 73, 1986).
-double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis, double spread) {
+double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis, double spread, double least_noise) {
   constexpr int kBlocks = 6;
   const PlaneFit& fit = patch.fit;
   std::map<std::pair<int, int>, double> score;  // Σ x·r of each block
@@ -33,9 +33,19 @@ double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis
   double sum = 0;
   for (const auto& [block, s] : score) sum += s * s;
   const double information = patch.moments.count * spread * spread;
-  const double robust = sum / (information * information);
-  const double plain = fit.rms * fit.rms / information;
+  const double robust = information > 0 ? sum / (information * information) : 0.0;
+  const double plain = std::pow(std::max(fit.rms, least_noise), 2) / std::max(information, 1e-300);
   return std::max(robust, plain);
+}
+
+/// Half the median rms of regions.
+double half_typical_noise(const VoxelGrid& grid, const Space& space, const CellSets& regions) {
+  if (regions.empty()) return 0.0;
+  std::vector<double> rms;
+  for (const std::vector<int>& region : regions) rms.push_back(fit_plane(sum_of(grid, region), space).rms);
+  const auto middle = rms.begin() + static_cast<std::ptrdiff_t>(rms.size() / 2);
+  std::nth_element(rms.begin(), middle, rms.end());
+  return 0.5 * *middle;
 }
 
 void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Patches& result) {
@@ -84,15 +94,15 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
 
 }  // namespace
 
-Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells) {
+Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise) {
   Patch patch;
   patch.cells = std::move(cells);
-  for (const int i : patch.cells) patch.moments += grid.moments[i];
+  patch.moments = sum_of(grid, patch.cells);
   patch.fit = fit_plane(patch.moments, space);
   const PlaneFit& fit = patch.fit;
   patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
-  patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u);
-  patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v);
+  patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u, least_noise);
+  patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v, least_noise);
   const auto doubt = [&](double variance, double spread) {
     const double width = std::max(spread, 1e-300);
     const double scale = 2.0 * grid.edge;
@@ -114,7 +124,9 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   regions = drop_rims(grid, cells, space, std::move(regions), context);
 
   Patches result;
-  for (std::vector<int>& region : regions) result.patches.push_back(make_patch(grid, space, std::move(region)));
+  result.least_noise = half_typical_noise(grid, space, regions);
+  for (std::vector<int>& region : regions)
+    result.patches.push_back(make_patch(grid, space, std::move(region), result.least_noise));
   std::stable_sort(result.patches.begin(), result.patches.end(),
                    [](const Patch& a, const Patch& b) { return a.area > b.area; });
   result.patch_of_cell.assign(grid.size(), -1);

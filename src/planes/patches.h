@@ -23,13 +23,17 @@ struct Patch {
 
 struct Patches {
   std::vector<Patch> patches;                  ///< by falling area
+  double least_noise = 0;                      ///< m, half the typical noise, for make_patch
   std::vector<int> patch_of_cell;              ///< −1 = none
   std::vector<std::pair<int, int>> adjoining;   ///< closest points nearer than 2ρ; a < b
   std::vector<std::pair<int, int>> neighbours;  ///< those of them whose local normals there are within τ
 };
 
-/// Moments, fit, area and standard errors of a set of voxels.
-Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells);
+Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells);
+
+/// Moments, fit, area and standard errors of a set of voxels. Points along one sweep of a scanner lie exactly in
+/// the sweep's own plane, however noisy they are: no fit counts as better than `least_noise` (m) allows.
+Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise);
 
 /// Grows regions over neighbouring voxels, from the flattest upward, while normals stay within `angle` (rad)
 /// of the running fit and residuals within the local scale; then splits what two planes explain clearly

@@ -24,12 +24,6 @@ double squared_error(const Moments& m, const Space& space) {
   return fit.rms * fit.rms * m.count;
 }
 
-Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells) {
-  Moments sum;
-  for (const int i : cells) sum += grid.moments[i];
-  return sum;
-}
-
 /// The straight cut through a region that leaves the least squared error; empty if none is clearly better.
 std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, const Space& space,
                                                        const std::vector<int>& region) {
@@ -94,6 +88,12 @@ double merge_loss(const Region& a, const Region& b, const Space& space, double a
 }
 
 }  // namespace
+
+Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells) {
+  Moments sum;
+  for (const int i : cells) sum += grid.moments[i];
+  return sum;
+}
 
 CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context) {
   CellSets result;

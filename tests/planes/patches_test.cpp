@@ -122,7 +122,7 @@ TEST(Split, ACornerIsNotCut) {
     std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
     ASSERT_GE(parts.size(), 2u);
     for (int k = 0; k < 2; ++k) {
-      const Patch patch = make_patch(scene.grid, scene.space, parts[k]);
+      const Patch patch = make_patch(scene.grid, scene.space, parts[k], 0.0);
       const bool flat = line_angle(patch.fit.normal, Vec3::UnitZ()) < radians(2);
       const bool tilted =
           std::abs(degrees(line_angle(patch.fit.normal, Vec3::UnitZ())) - std::min(angle, 180 - angle)) < 2;
@@ -198,7 +198,7 @@ TEST(MakePatch, TiltVarianceIsThatOfRepeatedScans) {
     const VoxelGrid grid = test::grid_of(cloud, kEdge);
     std::vector<int> all(grid.size());
     std::iota(all.begin(), all.end(), 0);
-    const Patch patch = make_patch(grid, {}, all);
+    const Patch patch = make_patch(grid, {}, all, 0.0);
     EXPECT_NEAR(patch.area, 1.6, 0.1);
     observed_u += std::pow(patch.fit.normal.x(), 2) / kDraws;
     observed_v += std::pow(patch.fit.normal.y(), 2) / kDraws;
@@ -211,6 +211,26 @@ TEST(MakePatch, TiltVarianceIsThatOfRepeatedScans) {
   EXPECT_LT(stated_u / observed_u, 2.0);
   EXPECT_GT(stated_v / observed_v, 0.6);
   EXPECT_LT(stated_v / observed_v, 2.0);
+}
+
+TEST(Patches, ASweepThatIsFlatByNatureIsNotTrusted) {
+  // A scanner's sweep: points along a line, noisy along the ray only, so that they lie exactly in a plane that
+  // has nothing to do with the surface.
+  PointCloud cloud;
+  Random random(3);
+  for (int i = 0; i < 60; ++i) {
+    const double noise = 0.005 * random.normal();
+    cloud.positions.emplace_back(0.01 * i, noise, 0.3 * noise);
+  }
+  const VoxelGrid grid = test::grid_of(cloud, 0.05);
+  std::vector<int> all(grid.size());
+  std::iota(all.begin(), all.end(), 0);
+  constexpr double kNoise = 0.0025;
+  const Patch naive = make_patch(grid, {}, all, 0.0), patch = make_patch(grid, {}, all, kNoise);
+  ASSERT_LT(naive.fit.rms, 1e-6);
+  const double expected = kNoise / (std::sqrt(60.0) * patch.fit.spread_v);  // of a plane fitted to a strip so wide
+  EXPECT_LT(std::sqrt(naive.variance_v), 0.01 * expected);
+  EXPECT_NEAR(std::sqrt(patch.variance_v), expected, 0.01 * expected);
 }
 
 }  // namespace
