@@ -18,10 +18,9 @@ double nearest(const Vec3& direction, const OrientationFrame& frame, const std::
                const AngleSet& angles) {
   if (!frame.closed) return angles.deviation(line_angle(direction, frame.axes.col(0)));
   const Vec3 in_frame = frame.axes.transpose() * direction;
-  const Vec3* nearest = &locals.front();
-  for (const Vec3& l : locals)
-    if (std::abs(l.dot(in_frame)) > std::abs(nearest->dot(in_frame))) nearest = &l;
-  return line_angle(*nearest, in_frame);
+  double largest = 0;  // cosine
+  for (const Vec3& l : locals) largest = std::max(largest, std::abs(l.dot(in_frame)));
+  return std::acos(std::min(largest, 1.0));  // rounding of small angles, up to 1e-8, costs nothing here
 }
 
 }  // namespace
