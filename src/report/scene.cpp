@@ -17,18 +17,6 @@
 namespace unseen::report {
 namespace {
 
-/// What float32 cannot hold to a millionth of the scene's size is stored relative to the scene's middle,
-/// rounded to whole metres.
-Vec3 offset_of(const std::vector<Surface>& surfaces, const PointSample& points) {
-  Eigen::AlignedBox3d box;
-  for (const Surface& s : surfaces)
-    for (const Vec3& v : s.vertices) box.extend(v);
-  for (const Vec3& p : points.positions) box.extend(p);
-  if (box.isEmpty()) return Vec3::Zero();
-  const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  return farthest <= 8.0 * box.diagonal().norm() ? Vec3::Zero() : Vec3(box.center().array().round().matrix());
-}
-
 /// A glTF model under construction: one buffer, to which views are appended.
 struct Builder {
   tinygltf::Model model;

@@ -6,6 +6,7 @@
 
 #include "report/triangulate.h"
 #include "unseen/planes/types.h"
+#include "unseen/report/point_sample.h"
 
 namespace unseen::report {
 
@@ -17,5 +18,9 @@ struct Surface {
 
 /// One a plane, in the order of the planes; empty where a plane has neither polygon nor segment.
 std::vector<Surface> surfaces_of(const planes::Arrangement& arrangement);
+
+/// What to subtract from world coordinates that float32 cannot hold to a millionth of the scene's size: the scene's
+/// middle, rounded to whole metres; else zero.
+Vec3 offset_of(const std::vector<Surface>& surfaces, const PointSample& points);
 
 }  // namespace unseen::report
