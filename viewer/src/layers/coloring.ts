@@ -14,7 +14,9 @@ export function choicesOf(model: Model, s: Structure, linked?: Structure): Color
   const theirs = (linked?.quantities ?? []).filter((q) => q.kind !== 'vector')
     .map((q) => ({ id: `@${q.id}`, name: `${q.name} (${linked!.name.toLowerCase()})`, quantity: q, of: linked! }));
   const related = model.graphs.some((g) => g.elements && (g.elements.structure === s.id || g.elements.structure === linked?.id));
-  const choices: ColorChoice[] = [...own, ...theirs];
+  // Points of planes begin with the colours of their planes.
+  const first = s.quantities?.[0];
+  const choices: ColorChoice[] = first && linked && first.structure === linked.id ? [...theirs, ...own] : [...own, ...theirs];
   if (related) choices.push({ id: kRelation, name: 'Relation to the selection' });
   if (choices.length === 0) choices.push({ id: '', name: 'One colour' });
   return choices;

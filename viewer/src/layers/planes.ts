@@ -76,7 +76,7 @@ export class PlanesLayer extends Layer {
     this.segments = gather(this.vertices);
     this.segmentsBefore = this.before && gather(this.before);
     const mesh = new TriMesh(shared, this.fill, this.vertices, vertexOwner, this.triangles, this.before);
-    const lines = new FatLines(shared, this.edge, { width: 1.1 });
+    const lines = new FatLines(shared, this.edge, { width: 1.2 });
     lines.set(this.segments, this.segmentOwner, this.segmentsBefore);
     this.outline = new FatLines(shared, this.edge, { width: 3, onTop: true });
     this.outline.set(new Float32Array(0), []);
@@ -122,10 +122,10 @@ export class PlanesLayer extends Layer {
       this.fill.set(p, c[0], c[1], c[2], faded ? (relation ? 50 : kFaded) : 255);
       const strong = relation === 'selected' || p === hover;
       const ink = strong ? (look.dark ? 255 : 15) : 0;
-      const mix = strong ? 0 : look.dark ? 0.75 : 0.6;
+      const mix = strong ? 0 : 0.45;
       this.edge.set(p, c[0] * mix + ink, c[1] * mix + ink, c[2] * mix + ink, faded && !strong ? 60 : 235);
-      const nz = Math.abs(this.normals[3 * p + 2]!), nx = Math.abs(this.normals[3 * p]!);
-      this.link.set(p, faded ? 225 : 0, active && relation === undefined ? 200 : 0, Math.round(255 * (0.8 + 0.2 * (0.75 * nz + 0.45 * nx))), 255);
+      const light = Math.abs(0.30 * this.normals[3 * p]! + 0.62 * this.normals[3 * p + 1]! + 0.72 * this.normals[3 * p + 2]!);
+      this.link.set(p, faded ? 252 : 0, active && relation === undefined ? 200 : 0, Math.round(255 * (0.72 + 0.28 * light)), 255);
     }
     this.link.set(-1, 0, active ? 200 : 0, 240, 255);
     this.fill.commit();

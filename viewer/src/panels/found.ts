@@ -13,6 +13,7 @@ export function foundPanel(app: App, view: SceneView): HTMLElement {
   const show = () => {
     const facts = factsOf(app, view);
     selected.replaceChildren(...(facts ? [facts] : []));
+    if (facts && matchMedia('(max-width: 799px)').matches) selected.closest('.side-body')?.scrollTo({ top: 0 });
   };
   app.on('selection', show, selected);
   queueMicrotask(show);
@@ -21,9 +22,9 @@ export function foundPanel(app: App, view: SceneView): HTMLElement {
     ...(summary?.warnings ?? []),
   ];
   return h('div', { class: 'panel-body' },
+    selected,
     header.facts?.length ? h('dl', { class: 'facts' }, ...header.facts.map((f) => h('div', {}, h('dt', {}, f.name), h('dd', {}, f.value)))) : null,
     ...notes.map((n) => h('p', { class: 'note warning' }, n)),
     thinned ? h('p', { class: 'note' }, `The page shows ${grouped(thinned.shown)} of ${grouped(thinned.of)} points; the result is of all.`) : null,
-    selected,
     ...(header.tables ?? []).map((t) => tablePanel(app, view, t)));
 }

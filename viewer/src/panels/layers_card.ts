@@ -12,7 +12,7 @@ export function layersCard(app: App, view: SceneView, open: boolean): HTMLElemen
   const syncs: (() => void)[] = [];
   for (const structure of model.structures) {
     const layer = viewport.layers.get(structure.id);
-    if (!layer) continue;
+    if (!layer || structure.kind === 'image') continue;
     const box = h('input', { type: 'checkbox', onchange: () => app.setLayer(structure.id, box.checked, scene) });
     const choices = layer.choices();
     const color = choices.length > 1

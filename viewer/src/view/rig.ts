@@ -77,7 +77,7 @@ export class CameraRig {
       deep = Math.max(deep, Math.abs(p.dot(b)));
     }
     const tan = Math.tan((kFov * Math.PI) / 360);
-    const half = Math.max(high, wide / aspect, 1e-6) * 1.12;
+    const half = Math.max(high, wide / aspect, 1e-6) * 1.18;
     this.distance = half / tan + (this.ortho ? 0 : 0.55 * deep);
     this.changed();
   }

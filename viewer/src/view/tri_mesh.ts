@@ -33,7 +33,7 @@ void main() {
   vec3 ray = uOrtho > 0.5 ? uForward : normalize(vWorld - uEye);
   float facing = abs(dot(n, ray));
   // A light from above and one from the side, so that walls of one colour stay apart.
-  float light = 0.70 + 0.16 * facing + 0.14 * abs(dot(n, normalize(vec3(0.35, 0.2, 0.9))));
+  float light = 0.64 + 0.10 * facing + 0.28 * abs(dot(n, vec3(0.30, 0.62, 0.72)));
   color = vec4(vColor.rgb * light, alpha);
 }`;
 

@@ -45,8 +45,8 @@ export class Viewport {
     this.scene.matrixWorldAutoUpdate = true;
     const context: LayerContext = { model, shared: this.shared, layers: this.layers, invalidate: () => this.invalidate() };
     // Points look up the planes that they lie on, and cameras their images: those come first.
-    const order = ['image', 'mesh', 'planes'];
-    const rank = (kind: string) => (order.includes(kind) ? order.indexOf(kind) : order.length);
+    const order = ['image', 'mesh', 'planes', 'lines', 'boxes', 'points', 'trajectory', 'skeleton', 'camera', 'graph'];
+    const rank = (kind: string) => order.indexOf(kind);
     for (const s of [...model.structures].sort((a, b) => rank(a.kind) - rank(b.kind))) {
       const layer = makeLayer(context, s);
       if (layer) this.layers.set(s.id, layer);
