@@ -8,6 +8,7 @@
 //   setSection(axis | null, value) 'x', 'y' or 'z'; value in scene coordinates
 //   view(name)                     'perspective', 'top', 'front', 'side'
 //   fit()
+//   complete()                     a promise: all points are in the picture (large clouds follow in steps)
 //   setTime(s)                     setBefore(x): 0 = the free fit, 1 = the result
 //   setFading(bool)                walls between camera and inside
 //   project(structure, index)      where the middle of an element is in the window, in CSS pixels
@@ -27,6 +28,7 @@ export function exposeApi(app: App) {
     setSection: (axis: Axis | null, value?: number) => app.setSection(axis, value),
     view: (name: ViewName) => app.view(name),
     fit: () => app.fit(),
+    complete: () => Promise.all(app.viewports.map((v) => v.complete())),
     setTime: (t: number) => app.setTime(t),
     setBefore: (x: number) => app.setBefore(x),
     setFading: (on: boolean) => app.setFading(on),
@@ -34,7 +36,6 @@ export function exposeApi(app: App) {
       const viewport = app.scenes[scene]?.viewport;
       const anchor = viewport?.layers.get(structure)?.anchor(index);
       if (!viewport || !anchor) return null;
-      viewport.draw();
       const box = viewport.canvas.getBoundingClientRect();
       const p = viewport.project(anchor);
       return { x: box.left + p.x, y: box.top + p.y };

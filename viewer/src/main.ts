@@ -72,7 +72,7 @@ async function start(root: HTMLElement): Promise<void> {
   app.setFading(app.viewports.some((v) => v.fadingHelps));
   app.viewports.forEach((v) => v.resize(v.canvas.parentElement!.clientWidth, v.canvas.parentElement!.clientHeight));
   app.view('perspective');
-  for (const v of app.viewports) v.finish();
+  for (const v of app.viewports) v.draw();
   exposeApi(app);
 }
 

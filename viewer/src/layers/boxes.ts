@@ -42,12 +42,12 @@ export class BoxesLayer extends ColoredLayer {
     const edges = Array.from({ length: 12 * this.count }, (_, i) => Math.floor(i / 12));
     const solid = this.corners(0, this.seen !== undefined), whole = this.corners(0, false);
     this.solid = new TriMesh(shared, this.table, solid, owner, faces);
-    this.solidEdges = new FatLines(shared, this.table, { width: 1.6 });
+    this.solidEdges = new FatLines(shared, this.table, { width: 1.6, shade: 0.55 });
     this.solidEdges.set(this.allEdges(solid), edges);
     this.object.add(this.solid.object, this.solidEdges.object);
     if (this.seen) {
       this.shell = new TriMesh(shared, this.table, whole.slice(), owner, faces, undefined, 0.2);
-      this.dashedEdges = new FatLines(shared, this.table, { width: 1.8, dash: 5 });
+      this.dashedEdges = new FatLines(shared, this.table, { width: 1.8, dash: 5, shade: 0.8 });
       this.dashedEdges.set(this.allEdges(whole), edges);
       this.object.add(this.shell.object, this.dashedEdges.object);
     }

@@ -6,7 +6,7 @@ import type { CameraStructure, ImageStructure } from '../format';
 import { FatLines } from '../view/fat_lines';
 import type { Pose } from '../view/rig';
 import { ElementTable } from '../view/shared';
-import { Layer, type LayerContext, type Look } from './layer';
+import { Layer, type LayerContext, type Look, type View } from './layer';
 
 export function poseOf(c: CameraStructure): Pose {
   const matrix = new THREE.Matrix4().set(...(c.T_world_camera as Parameters<THREE.Matrix4['set']>));
@@ -90,11 +90,13 @@ export class ImageLayer extends Layer {
 
 export class CameraLayer extends Layer {
   private readonly table = new ElementTable(1);
+  private readonly center = new THREE.Vector3();
+  private picture?: THREE.MeshBasicMaterial;
 
   constructor(context: LayerContext, structure: CameraStructure) {
     super(context, structure);
     const pose = poseOf(structure);
-    const center = new THREE.Vector3().setFromMatrixPosition(pose.matrix);
+    const center = this.center.setFromMatrixPosition(pose.matrix);
     const depth = 0.5;
     const at = (x: number, y: number) => new THREE.Vector3(((x - pose.cx) / pose.fx) * depth, ((y - pose.cy) / pose.fy) * depth, depth).applyMatrix4(pose.matrix);
     const corners = [at(0, 0), at(pose.width, 0), at(pose.width, pose.height), at(0, pose.height)];
@@ -114,7 +116,9 @@ export class CameraLayer extends Layer {
       g.setAttribute('position', new THREE.BufferAttribute(new Float32Array(corners.flatMap((c) => c.toArray())), 3));
       g.setAttribute('uv', new THREE.BufferAttribute(new Float32Array([0, 1, 1, 1, 1, 0, 0, 0]), 2));
       g.setIndex([0, 1, 2, 0, 2, 3]);
-      const mesh = new THREE.Mesh(g, new THREE.MeshBasicMaterial({ map: image.texture, side: THREE.DoubleSide, toneMapped: false, transparent: true, opacity: 0.92 }));
+      this.picture = new THREE.MeshBasicMaterial({ map: image.texture, side: THREE.DoubleSide, toneMapped: false, transparent: true, depthWrite: false });
+      const mesh = new THREE.Mesh(g, this.picture);
+      mesh.renderOrder = 12;
       mesh.frustumCulled = false;
       this.object.add(mesh);
     }
@@ -125,6 +129,11 @@ export class CameraLayer extends Layer {
     const v = look.dark ? 220 : 50;
     this.table.set(0, selected ? 0 : v, selected ? 114 : v, selected ? 178 : v, 255);
     this.table.commit();
+  }
+
+  /** Seen through the camera, the image lets the scene show through. */
+  override frame(view: View) {
+    if (this.picture) this.picture.opacity = view.eye.distanceTo(this.center) < 1e-4 ? 0.5 : 0.92;
   }
 
   override anchor(): THREE.Vector3 {

@@ -17,8 +17,8 @@ export function choicesOf(model: Model, s: Structure, linked?: Structure): Color
   // Points of planes begin with the colours of their planes.
   const first = s.quantities?.[0];
   const choices: ColorChoice[] = first && linked && first.structure === linked.id ? [...theirs, ...own] : [...own, ...theirs];
+  if (choices.length === 0) choices.push({ id: '', name: 'Each its own' });
   if (related) choices.push({ id: kRelation, name: 'Relation to the selection' });
-  if (choices.length === 0) choices.push({ id: '', name: 'One colour' });
   return choices;
 }
 

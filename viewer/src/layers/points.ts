@@ -8,7 +8,7 @@ import type { PointsStructure, Quantity } from '../format';
 import { labelColor, scalarColor } from '../palette';
 import { PointMesh, pointAt, spread } from '../view/point_mesh';
 import { ElementTable } from '../view/shared';
-import { choicesOf, colorsBy, kRelation, rangeOf, relationColors } from './coloring';
+import { choicesOf, colorsBy, dress, kRelation, rangeOf, relationColors } from './coloring';
 import { Layer, type ColorChoice, type Hit, type LayerContext, type Look, type View } from './layer';
 import { PlanesLayer } from './planes';
 
@@ -98,16 +98,16 @@ export class PointsLayer extends Layer {
     const g = this.mesh.geometry;
     const q = this.context.model.quantity(this.structure, id);
     if (!q || q === this.linkQuantity || q.kind === 'vector') {
-      uniforms.uMode!.value = 3;
+      this.mesh.mode = 3;
       uniforms.uTable!.value = this.table.texture;
     } else if (q.kind === 'color') {
       if (!g.hasAttribute('aColor'))
         g.setAttribute('aColor', new THREE.BufferAttribute(spread(this.context.model.fresh(q.array) as Uint8Array, 3), 3, true));
-      uniforms.uMode!.value = 2;
+      this.mesh.mode = 2;
     } else {
       const value = this.ownAttribute(q);
       g.setAttribute('aValue', value.attribute);
-      uniforms.uMode!.value = q.kind === 'label' ? 0 : 1;
+      this.mesh.mode = q.kind === 'label' ? 0 : 1;
       if (value.table) uniforms.uTable!.value = value.table.texture;
       uniforms.uScale!.value = value.scale;
       uniforms.uShift!.value = value.shift;
@@ -141,14 +141,16 @@ export class PointsLayer extends Layer {
   update(look: Look) {
     this.look = look;
     const { model } = this.context;
-    if (this.mesh.material.uniforms.uMode!.value !== 3) return;
+    if (this.mesh.mode !== 3) return;
     const s = model.get(this.linkQuantity?.structure);
     const n = this.table.count;
     let color: (i: number) => [number, number, number] = () => [110, 140, 170];
     if (s && this.color === kRelation) color = relationColors(model, s.id, look);
     else if (s && this.color.startsWith('@')) color = colorsBy(model, model.quantity(s, this.color.slice(1)), n, [110, 140, 170]);
     else if (s) color = labelColor;
-    for (let i = 0; i < n; ++i) this.table.set(i, ...color(i), 255);
+    const related = s && this.color !== kRelation ? look.relations.get(s.id) : undefined;
+    const hover = s && look.hover?.structure === s.id ? look.hover.index : -1;
+    for (let i = 0; i < n; ++i) this.table.set(i, ...dress(color(i), related?.get(i), false, i === hover, look.dark), 255);
     this.table.set(-1, ...(s ? labelColor(-1) : color(0)), 255);
     this.table.commit();
   }

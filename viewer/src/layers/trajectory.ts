@@ -57,7 +57,7 @@ export class TrajectoryLayer extends ColoredLayer {
       const mesh = new TriMesh(shared, this.table, body.vertices, new Uint32Array(body.vertices.length / 3).fill(b), body.triangles);
       body.object.add(mesh.object);
       if (structure.shapes[b]!.kind === 'box') {
-        const edges = new FatLines(shared, this.table, { width: 1.4 });
+        const edges = new FatLines(shared, this.table, { width: 1.4, shade: 0.55 });
         edges.set(edgesOf(body.vertices), new Uint32Array(12).fill(b));
         body.object.add(edges.object);
       }

@@ -14,8 +14,7 @@ async function pictureOf(app: App): Promise<Blob> {
   const pen = canvas.getContext('2d')!;
   let x = 0;
   for (const v of views) {
-    // The drawing buffer holds only until the browser shows it: draw and take it in one go.
-    v.draw();
+    v.draw(true);
     pen.drawImage(v.canvas, x, 0);
     x += v.canvas.width;
   }

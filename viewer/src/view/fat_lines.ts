@@ -2,17 +2,17 @@
 // Copyright (c) 2026 the unseen authors
 // Line segments some pixels wide, solid or dashed, coloured by a table of elements.
 import * as THREE from 'three';
-import { ElementTable, kCell, kClip, type SharedUniforms } from './shared';
+import { ElementTable, kCell, kClip, kOnTop, type SharedUniforms } from './shared';
 
 const kVertex = /* glsl */ `
 precision highp sampler2D;
 in vec3 aStart; in vec3 aEnd; in vec3 aStartBefore; in vec3 aEndBefore; in float aElement;
-uniform vec2 uSize; uniform float uPixel, uWidth, uBefore, uHasBefore, uBias, uDepth;
+uniform vec2 uSize; uniform float uPixel, uWidth, uBefore, uHasBefore, uBias, uShade;
 uniform sampler2D uTable;
 out vec4 vColor; out float vAlong; out vec3 vWorld;
 ${kCell}
 void main() {
-  vec4 entry = texelFetch(uTable, cell(aElement, textureSize(uTable, 0)), 0);
+  vec4 entry = texelFetch(uTable, cell(aElement), 0);
   float t = uBefore * uHasBefore;
   vec4 wa = modelMatrix * vec4(mix(aStart, aStartBefore, t), 1.0);
   vec4 wb = modelMatrix * vec4(mix(aEnd, aEndBefore, t), 1.0);
@@ -36,7 +36,7 @@ void main() {
   p.xy += off / (uSize * 0.5) * p.w;
   p.z -= uBias * p.w;
   gl_Position = p;
-  vColor = entry;
+  vColor = vec4(entry.rgb * uShade, entry.a);
   vAlong = position.x * len;
 }`;
 
@@ -58,6 +58,8 @@ export interface FatLineOptions {
   /** Towards the eye, in depth of the picture. */
   bias?: number;
   opacity?: number;
+  /** Darker than the element. */
+  shade?: number;
   onTop?: boolean;
 }
 
@@ -85,12 +87,14 @@ export class FatLines {
         uDash: { value: options.dash ?? 0 },
         uBias: { value: options.bias ?? 2e-5 },
         uOpacity: { value: options.opacity ?? 1 },
+        uShade: { value: options.shade ?? 1 },
         uHasBefore: { value: 0 },
       },
     });
     this.object = new THREE.Mesh(this.geometry, this.material);
     this.object.frustumCulled = false;
     this.object.renderOrder = options.onTop ? 20 : 5;
+    if (options.onTop) this.object.layers.set(kOnTop);
   }
 
   set width(value: number) {

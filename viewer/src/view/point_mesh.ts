@@ -3,30 +3,40 @@
 // Points: positions as stored (quantised), colours from tables, thinned in even steps while the view moves.
 import * as THREE from 'three';
 import type { Numbers } from '../decode';
-import { ElementTable, kCell, kClip, type SharedUniforms } from './shared';
+import { ElementTable, kCell, kClip, kPoints, type SharedUniforms } from './shared';
 
 const kVertex = /* glsl */ `
 precision highp sampler2D;
 in float aValue; in float aLabel; in vec3 aColor;
-uniform int uMode; // 0: label of the value, 1: scalar, 2: own colour, 3: label of the linked element
-uniform float uPointSize, uPixel, uScale, uShift, uThin;
+// MODE 0: label of the value, 1: scalar, 2: own colour, 3: label of the linked element
+uniform float uPointSize, uPixel, uScale, uShift, uThin, uAway;
 uniform sampler2D uTable, uLink, uRamp;
 out vec3 vColor;
 ${kClip}
 ${kCell}
 void main() {
-  vec4 link = texelFetch(uLink, cell(aLabel, textureSize(uLink, 0)), 0);
   vec4 world = modelMatrix * vec4(position, 1.0);
+  bool gone = cut(world.xyz);
+#if LINKED
+  vec4 link = texelFetch(uLink, cell(aLabel), 0);
   // Of points on a wall that is faded, only some stay.
-  float keep = fract(float(gl_VertexID) * 0.6180339887);
-  if (cut(world.xyz) || keep < link.r) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); gl_PointSize = 0.0; return; }
+  gone = gone || fract(float(gl_VertexID) * 0.6180339887) < link.r;
+#else
+  vec4 link = vec4(0.0, 0.0, 1.0, 1.0);
+#endif
+  if (gone) { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); gl_PointSize = 0.0; return; }
   gl_Position = projectionMatrix * viewMatrix * world;
-  if (uMode == 0) vColor = texelFetch(uTable, cell(aValue, textureSize(uTable, 0)), 0).rgb;
-  else if (uMode == 1) vColor = texture(uRamp, vec2(clamp(aValue * uScale + uShift, 0.002, 0.998), 0.5)).rgb;
-  else if (uMode == 2) vColor = aColor;
-  else vColor = texelFetch(uTable, cell(aLabel, textureSize(uTable, 0)), 0).rgb;
+#if MODE == 0
+  vColor = texelFetch(uTable, cell(aValue), 0).rgb;
+#elif MODE == 1
+  vColor = texture(uRamp, vec2(clamp(aValue * uScale + uShift, 0.002, 0.998), 0.5)).rgb;
+#elif MODE == 2
+  vColor = aColor;
+#else
+  vColor = texelFetch(uTable, cell(aLabel), 0).rgb;
+#endif
   // Green: how far towards grey; blue: brightness by the direction of the plane.
-  vColor = mix(vColor, vec3(0.62), link.g * 0.85) * (uMode == 2 ? 1.0 : link.b);
+  vColor = mix(vColor, vec3(uAway), link.g) * (MODE == 2 ? 1.0 : link.b);
   gl_PointSize = uPointSize * uPixel * uThin;
 }`;
 
@@ -40,9 +50,13 @@ void main() {
   color = vec4(vColor, 1.0);
 }`;
 
-// Point i goes to class i mod 16, and classes are drawn in an order in which each adds evenly.
-const kClasses = 16;
-const kOrder = [0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15];
+// Point i goes to class i mod 256, and classes are drawn in an order in which each adds evenly (bits reversed).
+const kClasses = 256;
+const kOrder = Array.from({ length: kClasses }, (_, i) => {
+  let r = 0;
+  for (let b = 0; b < 8; ++b) r |= ((i >> b) & 1) << (7 - b);
+  return r;
+});
 
 export function spread<T extends Numbers>(values: T, components: number): T {
   const n = values.length / components;
@@ -64,7 +78,7 @@ export function spread<T extends Numbers>(values: T, components: number): T {
 /** The point at a place after `spread`. */
 export function pointAt(place: number, n: number): number {
   for (const k of kOrder) {
-    const size = Math.floor((n - 1 - k) / kClasses) + 1;
+    const size = k < n ? Math.floor((n - 1 - k) / kClasses) + 1 : 0;
     if (place < size) return place * kClasses + k;
     place -= size;
   }
@@ -88,9 +102,9 @@ export class PointMesh {
       glslVersion: THREE.GLSL3,
       vertexShader: kVertex,
       fragmentShader: kFragment,
+      defines: { MODE: 3, LINKED: link.count > 0 ? 1 : 0 },
       uniforms: {
         ...shared.all(),
-        uMode: { value: 0 },
         uPointSize: { value: 2 },
         uThin: { value: 1 },
         uScale: { value: 1 },
@@ -102,6 +116,7 @@ export class PointMesh {
     });
     this.object = new THREE.Points(this.geometry, this.material);
     this.object.frustumCulled = false;
+    this.object.layers.set(kPoints);
     if (quantised) {
       this.object.matrixAutoUpdate = false;
       this.object.matrix.set(high[0]! - low[0]!, 0, 0, low[0]!, 0, high[1]! - low[1]!, 0, low[1]!, 0, 0, high[2]! - low[2]!, low[2]!, 0, 0, 0, 1);
@@ -109,10 +124,21 @@ export class PointMesh {
     }
   }
 
-  /** Shows every 2^level-th point. */
-  thin(level: number) {
+  set mode(mode: number) {
+    if (this.material.defines.MODE === mode) return;
+    this.material.defines.MODE = mode;
+    this.material.needsUpdate = true;
+  }
+
+  get mode(): number {
+    return this.material.defines.MODE as number;
+  }
+
+  /** Draws the points between two shares of all, in even steps; fewer ones may be larger. */
+  share(from: number, to: number, grow: boolean) {
     const n = this.geometry.getAttribute('position').count;
-    this.geometry.setDrawRange(0, Math.ceil(n / 2 ** level));
-    this.material.uniforms.uThin!.value = 1 + 0.22 * level;
+    const start = Math.floor(n * from), end = Math.ceil(n * to);
+    this.geometry.setDrawRange(start, end - start);
+    this.material.uniforms.uThin!.value = grow ? 1 + 0.2 * Math.log2(1 / Math.max(to, 1 / 64)) : 1;
   }
 }

@@ -3,6 +3,10 @@
 // What all materials of a view share: section plane, slider between before and after, size of the picture.
 import * as THREE from 'three';
 
+/** Layers of three.js: what is drawn again when more points follow. */
+export const kPoints = 1;
+export const kOnTop = 2;
+
 export class SharedUniforms {
   /** Shown is where dot(xyz, p) <= w. */
   readonly uClip = { value: new THREE.Vector4(0, 0, 0, 1) };
@@ -12,9 +16,11 @@ export class SharedUniforms {
   readonly uEye = { value: new THREE.Vector3() };
   readonly uForward = { value: new THREE.Vector3(0, 1, 0) };
   readonly uOrtho = { value: 0 };
+  /** Grey that things step back to. */
+  readonly uAway = { value: 0.84 };
 
   all() {
-    return { uClip: this.uClip, uBefore: this.uBefore, uSize: this.uSize, uPixel: this.uPixel, uEye: this.uEye, uForward: this.uForward, uOrtho: this.uOrtho };
+    return { uClip: this.uClip, uBefore: this.uBefore, uSize: this.uSize, uPixel: this.uPixel, uEye: this.uEye, uForward: this.uForward, uOrtho: this.uOrtho, uAway: this.uAway };
   }
 
   /** Whether the section plane leaves a point of the world. */
@@ -31,7 +37,7 @@ bool cut(vec3 p) { return dot(uClip.xyz, p) > uClip.w; }
 
 /** Cell of an element in a table: 0 is none, element i is at i + 1. */
 export const kCell = /* glsl */ `
-ivec2 cell(float i, ivec2 size) { int k = int(i + 0.5); return ivec2(k % size.x, k / size.x); }
+ivec2 cell(float i) { int k = int(i + 0.5); return ivec2(k & 1023, k >> 10); }
 `;
 
 /** Colours and states of elements as a texture, so that a change needs no upload of geometry. */
@@ -40,7 +46,7 @@ export class ElementTable {
   readonly texture: THREE.DataTexture;
 
   constructor(readonly count: number) {
-    const width = Math.min(1024, count + 1);
+    const width = 1024;
     const height = Math.ceil((count + 1) / width);
     this.data = new Uint8Array(width * height * 4);
     this.texture = new THREE.DataTexture(this.data, width, height, THREE.RGBAFormat, THREE.UnsignedByteType);

@@ -12,7 +12,7 @@ uniform sampler2D uTable;
 out vec4 vColor; out vec3 vWorld;
 ${kCell}
 void main() {
-  vec4 entry = texelFetch(uTable, cell(aElement, textureSize(uTable, 0)), 0);
+  vec4 entry = texelFetch(uTable, cell(aElement), 0);
   vec4 world = modelMatrix * vec4(mix(position, aBefore, uBefore * uHasBefore), 1.0);
   vWorld = world.xyz;
   vColor = entry;

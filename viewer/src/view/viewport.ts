@@ -9,12 +9,14 @@ import { PointsLayer } from '../layers/points';
 import type { Model, Selection } from '../model';
 import { addGestures } from './gestures';
 import type { CameraRig } from './rig';
-import { SharedUniforms } from './shared';
+import { kOnTop, kPoints, SharedUniforms } from './shared';
 
 THREE.ColorManagement.enabled = false;
 
-const kSlow = 45; // ms between pictures from which on points are thinned while the view moves
-const kRest = 180; // ms after which the full density comes back
+const kBudget = 60; // ms for the points of one picture
+const kFewest = 100000; // points in it at least
+const kRest = 180; // ms without movement after which the other points follow
+const kManyPoints = 1000000; // from here on edges are not smoothed: it would cost too much in software
 const kHoverPoints = 120000;
 
 export interface ViewportHandlers {
@@ -32,14 +34,19 @@ export class Viewport {
   private readonly renderer: THREE.WebGLRenderer;
   private view!: View;
   private pending = 0;
-  private level = 0;
-  private movingSince = 0;
-  private lastDrawn = 0;
+  private more = 0;
+  private movingSince = -Infinity;
   private rest = 0;
+  /** Share of the points that the picture holds. */
+  private shown = 0;
+  /** Points a millisecond; 0 before it is known. */
+  private speed = 0;
+  private readonly waiting: (() => void)[] = [];
   private listeners: (() => void)[] = [];
 
   constructor(readonly model: Model, readonly rig: CameraRig, readonly handlers: ViewportHandlers) {
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, preserveDrawingBuffer: false, powerPreference: 'high-performance' });
+    const points = model.structures.reduce((n, s) => n + (s.kind === 'points' ? model.count(s) : 0), 0);
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: points < kManyPoints, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
     this.scene.matrixWorldAutoUpdate = true;
@@ -92,38 +99,23 @@ export class Viewport {
     });
   }
 
-  /** The view is being moved: thin points if pictures come slowly. */
+  /** The view is being moved: points are thinned as far as the graphics are slow. */
   moving() {
-    const now = performance.now();
-    if (now - this.movingSince > 400) this.lastDrawn = 0;
-    this.movingSince = now;
+    this.movingSince = performance.now();
     window.clearTimeout(this.rest);
-    this.rest = window.setTimeout(() => {
-      if (this.level > 0) {
-        this.setLevel(0);
-        this.draw();
-      }
-      this.lastDrawn = 0;
-    }, kRest);
+    this.rest = window.setTimeout(() => this.invalidate(), kRest + 10);
   }
 
-  private setLevel(level: number) {
-    this.level = level;
-    for (const l of this.layers.values()) if (l instanceof PointsLayer) l.mesh.thin(l.count < 50000 ? 0 : level);
+  private share(from: number, to: number, grow: boolean) {
+    for (const l of this.layers.values()) if (l instanceof PointsLayer) l.mesh.share(from, to, grow);
   }
 
-  draw() {
+  /** Sets the camera for the picture as it is now. */
+  private aim() {
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
-    if (width < 1 || height < 1) return;
-    const now = performance.now();
-    if (now - this.movingSince < kRest) {
-      const took = this.lastDrawn > 0 ? now - this.lastDrawn : 0;
-      const points = this.visiblePoints();
-      if (took > kSlow && this.level < 4) this.setLevel(this.level + 1);
-      else if (this.lastDrawn === 0 && points > 600000) this.setLevel(Math.min(4, Math.max(this.level, Math.ceil(Math.log2(points / 600000)))));
-      this.lastDrawn = now;
-    }
+    if (width < 1 || height < 1) return false;
     const camera = this.rig.camera(width / height);
+    camera.layers.enableAll();
     const eye = new THREE.Vector3().setFromMatrixPosition(camera.matrixWorld);
     const forward = new THREE.Vector3(0, 0, -1).transformDirection(camera.matrixWorld);
     this.view = { camera, ortho: camera instanceof THREE.OrthographicCamera, eye, forward, width, height };
@@ -134,21 +126,69 @@ export class Viewport {
     this.shared.uForward.value.copy(forward);
     this.shared.uOrtho.value = this.view.ortho ? 1 : 0;
     for (const layer of this.layers.values()) if (layer.visible) layer.frame(this.view);
-    this.renderer.render(this.scene, camera);
+    return true;
+  }
+
+  /** Draws the picture: all of it, or as many points as there is time for; the others follow. */
+  draw(all = false) {
+    cancelAnimationFrame(this.more);
+    if (!this.aim()) return;
+    const points = this.visiblePoints();
+    const moving = performance.now() - this.movingSince < kRest;
+    const most = Math.max(kFewest, this.speed * kBudget);
+    this.shown = all || points <= most ? 1 : most / points;
+    this.share(0, this.shown, moving);
+    this.timed(points * this.shown, () => this.renderer.render(this.scene, this.view.camera));
     for (const f of this.listeners) f();
+    if (this.shown < 1) {
+      if (!moving) this.more = requestAnimationFrame(() => this.drawMore());
+    } else this.finished();
+  }
+
+  /** Adds points to the picture that stands. */
+  private drawMore() {
+    const points = Math.max(1, this.visiblePoints());
+    const next = Math.min(1, this.shown + Math.max(kFewest, this.speed * kBudget) / points);
+    this.share(this.shown, next, false);
+    const { camera } = this.view;
+    camera.layers.set(kPoints);
+    if (next === 1) camera.layers.enable(kOnTop);
+    this.renderer.autoClear = false;
+    this.timed(points * (next - this.shown), () => this.renderer.render(this.scene, camera));
+    this.renderer.autoClear = true;
+    camera.layers.enableAll();
+    this.shown = next;
+    if (next < 1) this.more = requestAnimationFrame(() => this.drawMore());
+    else this.finished();
+  }
+
+  /** Learns how many points a millisecond the graphics draw. */
+  private timed(points: number, render: () => void) {
+    const start = performance.now();
+    render();
+    if (points < 50000) return;
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    const speed = points / Math.max(0.5, performance.now() - start);
+    this.speed = this.speed === 0 ? speed : 0.5 * (this.speed + speed);
+  }
+
+  private finished() {
+    for (const done of this.waiting.splice(0)) done();
+  }
+
+  /** When all points are in the picture. */
+  complete(): Promise<void> {
+    return new Promise((done) => {
+      if (this.shown === 1 && !this.pending) done();
+      else this.waiting.push(done);
+    });
   }
 
   private visiblePoints(): number {
     let n = 0;
     for (const l of this.layers.values()) if (l instanceof PointsLayer && l.visible) n += l.count;
     return n;
-  }
-
-  /** Waits until the graphics have really drawn. */
-  finish() {
-    this.draw();
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
 
   setBackground(color: string) {
@@ -159,11 +199,12 @@ export class Viewport {
   update(look: Look) {
     for (const layer of this.layers.values()) layer.update(look);
     this.shared.uBefore.value = look.before;
+    this.shared.uAway.value = (look.dark ? 62 : 214) / 255;
     this.invalidate();
   }
 
   pick(x: number, y: number, mostPoints = Infinity): Hit | null {
-    if (!this.view) return null;
+    if (!this.aim()) return null;
     const { camera, width, height } = this.view;
     const caster = new THREE.Raycaster();
     const at = new THREE.Vector2(x, y);
@@ -195,6 +236,7 @@ export class Viewport {
 
   /** Where a point of the world is on the canvas, in CSS pixels. */
   project(p: THREE.Vector3): { x: number; y: number } {
+    this.aim();
     const q = p.clone().project(this.view.camera);
     return { x: ((q.x + 1) / 2) * this.view.width, y: ((1 - q.y) / 2) * this.view.height };
   }
