@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-// Bundles src/ into one self-contained page, dist/page.html. The same sources give the same bytes.
+// Bundles src/ into one self-contained page, dist/page.html or the file given. The same sources give the same bytes.
 import { readFile, mkdir, writeFile } from 'node:fs/promises';
+import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+const out = process.argv[2] ?? here('dist/page.html');
 const common = { bundle: true, write: false, minify: true, legalComments: 'none', charset: 'utf8', absWorkingDir: here('.') };
 
 const script = await build({
@@ -29,6 +31,7 @@ const page = template.replace('/*unseen:style*/', () => css).replace('/*unseen:s
 for (const mark of ['<!--unseen:title-->', '<!--unseen:scenes-->']) {
   if (page.split(mark).length !== 2) throw new Error(`${mark} must stand in the page exactly once`);
 }
-await mkdir(here('dist'), { recursive: true });
-await writeFile(here('dist/page.html'), page);
-console.log(`dist/page.html: ${(Buffer.byteLength(page) / 1024).toFixed(0)} kB`);
+
+await mkdir(dirname(out), { recursive: true });
+await writeFile(out, page);
+console.log(`${out}: ${(Buffer.byteLength(page) / 1024).toFixed(0)} kB`);

@@ -34,7 +34,7 @@ TEST(Page, HoldsItsScenesAndATitleThatStaysText) {
   EXPECT_EQ(occurrences(page, "class=\"unseen-scene\">AAAA</script>"), 1u);
   EXPECT_LT(page.find("AAAA"), page.find("BBBB"));
   EXPECT_EQ(occurrences(page, "<!--unseen:"), 0u);
-  EXPECT_EQ(page.substr(0, 15), "<!DOCTYPE html>");
+  EXPECT_EQ(page.substr(0, 15), "<!doctype html>");
 }
 
 TEST(Page, AsksForNothing) {
