@@ -103,7 +103,12 @@ void write_files(const planes::Arrangement& a, const Arguments& args, const Opti
   write_text(out.file("planes.ply"), report::planes_ply(a));
   write_text(out.file("planes.obj"), report::planes_obj(a, "planes.mtl"));
   write_text(out.file("planes.mtl"), report::planes_mtl(a));
+  write_text(out.file("planes.csv"), report::planes_csv(a));
   write_text(out.file("scene.glb"), report::planes_glb(a, streamed.sample));
+  write_text(out.file("scene.usda"), report::planes_usda(a, streamed.sample));
+  if (!a.two_dimensional) return;
+  write_text(out.file("drawing.dxf"), report::drawing_dxf(a));
+  write_text(out.file("drawing.svg"), report::drawing_svg(a));
 }
 
 int run(Arguments& args) {

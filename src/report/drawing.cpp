@@ -7,24 +7,34 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <numeric>
 
 #include "report/html.h"
 #include "report/palette.h"
+#include "report/surfaces.h"
+#include "unseen/report/planes_files.h"
 
 namespace unseen::report {
 namespace {
 
 constexpr double kWidth = 800, kTallest = 640, kMargin = 12;  ///< pixels of the picture
 
-/// Maps world points to pixels so that everything drawn fits.
+/// Maps world points to the picture.
 class Canvas {
  public:
   explicit Canvas(const View& view) : view_(view) {}
 
+  /// From above in metres, `offset` at the picture's origin.
+  static Canvas in_metres(const Vec3& offset) {
+    Canvas canvas(top_view());
+    canvas.origin_ = {-offset.x(), offset.y()};
+    canvas.decimals_ = 6;
+    return canvas;
+  }
+
   void cover(const Vec3& p) { box_.extend(flat(p)); }
+  /// To pixels, so that everything covered fits.
   void fit() {
     if (box_.isEmpty()) box_.extend(Vec2::Zero());
     const Vec2 size = box_.sizes().cwiseMax(1e-9 + 1e-6 * box_.sizes().maxCoeff());
@@ -35,6 +45,11 @@ class Canvas {
   Vec2 pixel(const Vec3& p) const {
     const Vec2 f = flat(p);
     return {origin_.x() + pixels_ * f.x(), origin_.y() - pixels_ * f.y()};
+  }
+  /// "x y"
+  std::string at(const Vec3& p) const {
+    const Vec2 q = pixel(p);
+    return fmt::format("{:.{}f} {:.{}f}", q.x(), decimals_, q.y(), decimals_);
   }
   double depth(const Vec3& p) const { return view_.toward.dot(p); }
   std::string wrap(const std::string& body, const std::string& label) const {
@@ -49,6 +64,7 @@ class Canvas {
   Eigen::AlignedBox2d box_;
   double pixels_ = 1, height_ = kTallest;
   Vec2 origin_ = Vec2::Zero();
+  int decimals_ = 1;  ///< of coordinates in paths
 };
 
 /// A closed path; vertices that fall on the same tenth of a pixel are drawn once.
@@ -57,8 +73,7 @@ std::string path_of(const Canvas& canvas, const planes::Polygon& polygon) {
   for (const auto& ring : polygon) {
     std::string last;
     for (const Vec3& p : ring) {
-      const Vec2 q = canvas.pixel(p);
-      std::string at = fmt::format("{:.1f} {:.1f}", q.x(), q.y());
+      std::string at = canvas.at(p);
       if (at == last) continue;
       path += (last.empty() ? "M" : "L") + at;
       last = std::move(at);
@@ -88,13 +103,25 @@ std::string dots(const Canvas& canvas, const PointSample& points, std::size_t li
   const std::size_t step =
       std::max<std::size_t>(1, (points.positions.size() + limit - 1) / std::max<std::size_t>(limit, 1));
   for (std::size_t i = 0; i < points.positions.size(); i += step) {
-    const Vec2 q = canvas.pixel(points.positions[i]);
-    fmt::format_to(std::back_inserter(paths[color_of(points.plane_of_point[i])]), "M{:.1f} {:.1f}h0", q.x(),
-                   q.y());
+    paths[color_of(points.plane_of_point[i])].append("M").append(canvas.at(points.positions[i])).append("h0");
   }
   std::string body;
   for (const auto& [color, path] : paths)
     body += fmt::format("<path class=\"dots\" stroke=\"{}\" d=\"{}\"/>", color, path);
+  return body;
+}
+
+/// A group a frame with the segments that have it.
+std::string segments(const Canvas& canvas, const planes::Arrangement& a) {
+  std::string body;
+  for (std::size_t f = 0; f < a.frames.size(); ++f) {
+    body += fmt::format("<g id=\"frame_{}\" stroke=\"{}\">\n", f, hex(frame_color(static_cast<int>(f))));
+    for (const int p : a.frames[f].planes)
+      if (const auto& segment = a.planes[static_cast<std::size_t>(p)].segment)
+        body += fmt::format("<path id=\"plane_{}\" class=\"segment\" d=\"M{}L{}\"/>\n", p,
+                            canvas.at((*segment)[0]), canvas.at((*segment)[1]));
+    body += "</g>\n";
+  }
   return body;
 }
 
@@ -166,13 +193,27 @@ std::string svg_of_segments(const planes::Arrangement& a, const PointSample& poi
       for (const Vec3& end : *plane.segment) canvas.cover(end);
   canvas.fit();
   std::string body = dots(canvas, points, limit, [](int) { return hex(kUnassigned); });
-  for (const planes::ArrangedPlane& plane : a.planes) {
-    if (!plane.segment) continue;
-    const Vec2 from = canvas.pixel((*plane.segment)[0]), to = canvas.pixel((*plane.segment)[1]);
-    body += fmt::format("<path class=\"segment\" stroke=\"{}\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>",
-                        hex(frame_color(plane.frame)), from.x(), from.y(), to.x(), to.y());
-  }
-  return canvas.wrap(body, label);
+  return canvas.wrap(body + segments(canvas, a), label);
+}
+
+std::string drawing_svg(const planes::Arrangement& a) {
+  const Vec3 offset = storage_offset(surfaces_of(a), {});
+  const Canvas canvas = Canvas::in_metres(offset);
+  Eigen::AlignedBox2d box;
+  for (const planes::ArrangedPlane& plane : a.planes)
+    if (plane.segment)
+      for (const Vec3& end : *plane.segment) box.extend(canvas.pixel(end));
+  if (box.isEmpty()) box.extend(Vec2::Zero());
+  const double longest = std::max(box.sizes().maxCoeff(), 1e-3), margin = 0.02 * longest;
+  const Vec2 corner = box.min().array() - margin, size = box.sizes().array() + 2 * margin;
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.3f}mm\" height=\"{1:.3f}mm\" "
+      "viewBox=\"{2:.6f} {3:.6f} {4:.6f} {5:.6f}\"\n"
+      "  style=\"max-width:100%;max-height:100vh\" fill=\"none\" stroke-linecap=\"round\" "
+      "stroke-width=\"{6:.6f}\">\n"
+      "<desc>lines of unseen, metres; world x = x + {7}, world y = {8} - y</desc>\n{9}</svg>\n",
+      1e3 * size.x(), 1e3 * size.y(), corner.x(), corner.y(), size.x(), size.y(), 0.003 * longest, offset.x(),
+      offset.y(), segments(canvas, a));
 }
 
 }  // namespace unseen::report

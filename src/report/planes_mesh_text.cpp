@@ -31,25 +31,27 @@ std::string material(int frame) {
 
 }  // namespace
 
+/// Vertices are coloured, too: many programs (Blender, Open3D, CloudCompare) pass over colours of faces.
 std::string planes_ply(const planes::Arrangement& a) {
   const auto surfaces = surfaces_of(a);
   const Sizes sizes = sizes_of(surfaces);
+  const std::string color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\ncomment planes of unseen\nelement vertex {}\n"
-      "property double x\nproperty double y\nproperty double z\n",
-      sizes.vertices);
-  constexpr const char* kMembership =
-      "property int plane\nproperty int frame\nproperty uchar red\nproperty uchar green\nproperty uchar "
-      "blue\n";
+      "property double x\nproperty double y\nproperty double z\n{}",
+      sizes.vertices, color);
   if (a.two_dimensional)
     text += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\n", sizes.segments);
   else
     text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", sizes.triangles);
-  text += std::string(kMembership) + "end_header\n";
+  text += "property int plane\nproperty int frame\n" + color + "end_header\n";
 
   auto out = std::back_inserter(text);
-  for (const Surface& s : surfaces)
-    for (const Vec3& v : s.vertices) fmt::format_to(out, "{} {} {}\n", v.x(), v.y(), v.z());
+  for (std::size_t p = 0; p < surfaces.size(); ++p) {
+    const Rgb c = frame_color(a.planes[p].frame);
+    for (const Vec3& v : surfaces[p].vertices)
+      fmt::format_to(out, "{} {} {} {} {} {}\n", v.x(), v.y(), v.z(), c[0], c[1], c[2]);
+  }
   std::size_t first = 0;
   for (std::size_t p = 0; p < surfaces.size(); ++p) {
     const int frame = a.planes[p].frame;

@@ -2,10 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include <tiny_gltf.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -16,18 +14,6 @@
 
 namespace unseen::report {
 namespace {
-
-/// What float32 cannot hold to a millionth of the scene's size is stored relative to the scene's middle,
-/// rounded to whole metres.
-Vec3 offset_of(const std::vector<Surface>& surfaces, const PointSample& points) {
-  Eigen::AlignedBox3d box;
-  for (const Surface& s : surfaces)
-    for (const Vec3& v : s.vertices) box.extend(v);
-  for (const Vec3& p : points.positions) box.extend(p);
-  if (box.isEmpty()) return Vec3::Zero();
-  const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
-  return farthest <= 8.0 * box.diagonal().norm() ? Vec3::Zero() : Vec3(box.center().array().round().matrix());
-}
 
 /// A glTF model under construction: one buffer, to which views are appended.
 struct Builder {
@@ -148,7 +134,7 @@ void add_points(Builder& b, const planes::Arrangement& a, const PointSample& poi
 std::string planes_glb(const planes::Arrangement& a, const PointSample& points) {
   const auto surfaces = surfaces_of(a);
   Builder b;
-  b.offset = offset_of(surfaces, points);
+  b.offset = storage_offset(surfaces, points);
   b.model.asset.version = "2.0";
   b.model.asset.generator = std::string("unseen ") + kVersion;
   b.model.buffers.emplace_back();

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "report/surfaces.h"
 
+#include <algorithm>
+
 #include "unseen/report/planes_files.h"
 
 namespace unseen::report {
@@ -19,6 +21,16 @@ std::vector<Surface> surfaces_of(const planes::Arrangement& arrangement) {
     surface.triangles = triangulate(plane.polygon, plane.plane.normal);
   }
   return surfaces;
+}
+
+Vec3 storage_offset(const std::vector<Surface>& surfaces, const PointSample& points) {
+  Eigen::AlignedBox3d box;
+  for (const Surface& s : surfaces)
+    for (const Vec3& v : s.vertices) box.extend(v);
+  for (const Vec3& p : points.positions) box.extend(p);
+  if (box.isEmpty()) return Vec3::Zero();
+  const double farthest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  return farthest <= 8.0 * box.diagonal().norm() ? Vec3::Zero() : Vec3(box.center().array().round().matrix());
 }
 
 std::string plane_name(const planes::Arrangement& arrangement, std::size_t plane) {

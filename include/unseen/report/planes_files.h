@@ -24,6 +24,22 @@ std::string planes_mtl(const planes::Arrangement& arrangement);
 /// offset, which stands in the root node's extras as "offset": world = stored + offset.
 std::string planes_glb(const planes::Arrangement& arrangement, const PointSample& points);
 
+/// scene.usda (USD ASCII): a Mesh a plane, /unseen/planes/frame_0/plane_12, 2D: a linear BasisCurves, with
+/// the frame's colour, and at most 50 000 points, coloured by plane. Metres, z up. Far coordinates are stored
+/// like those of planes_glb; the offset is the translation of /unseen.
+std::string planes_usda(const planes::Arrangement& arrangement, const PointSample& points);
+
+/// planes.csv (RFC 4180): the as-built table, a row a plane, units in the header (docs/formats.md).
+std::string planes_csv(const planes::Arrangement& arrangement);
+
+/// drawing.dxf (R12, ASCII): a LINE a segment of a 2D arrangement, a layer a frame; world coordinates,
+/// metres.
+std::string drawing_dxf(const planes::Arrangement& arrangement);
+
+/// drawing.svg: the segments of a 2D arrangement in true size, one user unit a metre, a group a frame. Far
+/// coordinates are stored like those of planes_glb; <desc> says how to get back to the world.
+std::string drawing_svg(const planes::Arrangement& arrangement);
+
 /// "plane 12 (wall)", or "plane 12" if it has no tag.
 std::string plane_name(const planes::Arrangement& arrangement, std::size_t plane);
 
