@@ -66,6 +66,7 @@ std::string planes_ply(const planes::Arrangement& a) {
   return text;
 }
 
+/// Each plane is an object, too, because Blender tells only these apart.
 std::string planes_obj(const planes::Arrangement& a, const std::string& material_file) {
   const auto surfaces = surfaces_of(a);
   std::string text = "# planes of unseen\nmtllib " + material_file + "\n";
@@ -73,8 +74,8 @@ std::string planes_obj(const planes::Arrangement& a, const std::string& material
   std::size_t first = 1;
   for (std::size_t p = 0; p < surfaces.size(); ++p) {
     const std::string& tag = a.planes[p].tag;
-    fmt::format_to(out, "g plane_{}{}\nusemtl {}\n", p, tag.empty() ? "" : "_" + tag,
-                   material(a.planes[p].frame));
+    const std::string name = fmt::format("plane_{}{}", p, tag.empty() ? "" : "_" + tag);
+    fmt::format_to(out, "o {0}\ng {0}\nusemtl {1}\n", name, material(a.planes[p].frame));
     for (const Vec3& v : surfaces[p].vertices) fmt::format_to(out, "v {} {} {}\n", v.x(), v.y(), v.z());
     for (const Triangle& t : surfaces[p].triangles)
       fmt::format_to(out, "f {} {} {}\n", first + t[0], first + t[1], first + t[2]);
