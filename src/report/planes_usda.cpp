@@ -30,6 +30,12 @@ class UsdText {
     --depth_;
     line("}");
   }
+  /// A primvar: one value for the whole prim ("constant") or one a point ("vertex").
+  void primvar(const std::string& declaration, const std::string& interpolation) {
+    line(declaration + " (");
+    line("    interpolation = \"" + interpolation + "\"");
+    line(")");
+  }
   void line(const std::string& text) { text_ += std::string(4 * depth_, ' ') + text + "\n"; }
   const std::string& text() const { return text_; }
 
@@ -71,8 +77,6 @@ std::string color(const Rgb& srgb) {
   return tuple(Vec3f(Vec3(c[0], c[1], c[2]).cast<float>()));
 }
 
-constexpr const char* kConstant = " (interpolation = \"constant\")";
-
 /// Positions relative to `offset` and the box around them, which grows by `margin` on all sides.
 void add_positions(UsdText& usd, const std::vector<Vec3>& world, const Vec3& offset, double margin) {
   Eigen::AlignedBox3f box;
@@ -88,7 +92,7 @@ void add_positions(UsdText& usd, const std::vector<Vec3>& world, const Vec3& off
 }
 
 void add_width(UsdText& usd, double width) {
-  usd.line(fmt::format("float[] widths = [{}]", static_cast<float>(width)) + kConstant);
+  usd.primvar(fmt::format("float[] widths = [{}]", static_cast<float>(width)), "constant");
 }
 
 void add_plane(UsdText& usd, const planes::Arrangement& a, std::size_t p, const Surface& surface,
@@ -109,7 +113,7 @@ void add_plane(UsdText& usd, const planes::Arrangement& a, std::size_t p, const 
                return fmt::format("{}, {}, {}", t[0], t[1], t[2]);
              }));
   }
-  usd.line("color3f[] primvars:displayColor = [" + color(frame_color(plane.frame)) + "]" + kConstant);
+  usd.primvar("color3f[] primvars:displayColor = [" + color(frame_color(plane.frame)) + "]", "constant");
   if (!plane.tag.empty()) usd.line("custom string userProperties:tag = " + quoted(plane.tag));
   usd.close();
 }
@@ -135,7 +139,7 @@ void add_points(UsdText& usd, const planes::Arrangement& a, const PointSample& p
   usd.open("Points", "points");
   add_positions(usd, few.positions, offset, width / 2);
   add_width(usd, width);
-  usd.line("color3f[] primvars:displayColor = " + list(colors, color) + " (interpolation = \"vertex\")");
+  usd.primvar("color3f[] primvars:displayColor = " + list(colors, color), "vertex");
   usd.line("int[] primvars:displayColor:indices = " +
            list(few.plane_of_point, [](int plane) { return std::to_string(plane + 1); }));
   usd.close();

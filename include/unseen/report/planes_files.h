@@ -10,10 +10,11 @@
 
 namespace unseen::report {
 
-/// planes.ply: the polygons as triangles, each with its plane, frame and colour; 2D: line segments as edges.
+/// planes.ply: the polygons as triangles, each with its plane, frame and colour, vertices coloured, too; 2D:
+/// line segments as edges.
 std::string planes_ply(const planes::Arrangement& arrangement);
 
-/// planes.obj: one group a plane, one material a frame from `material_file`; 2D: line elements.
+/// planes.obj: one object and group a plane, one material a frame from `material_file`; 2D: line elements.
 std::string planes_obj(const planes::Arrangement& arrangement, const std::string& material_file);
 
 /// The materials that planes_obj refers to.
