@@ -5,7 +5,8 @@
 #include <unseen/io/output_folder.h>
 #include <unseen/io/points.h>
 #include <unseen/planes/planes.h>
-#include <unseen/report/planes_page.h>
+#include <unseen/report/page.h>
+#include <unseen/report/planes_scene.h>
 
 #include <cstdio>
 
@@ -29,9 +30,10 @@ int main(int argc, char** argv) try {
         sample.add(positions, plane_of_point);
       });
 
-  const std::string page = unseen::report::planes_page(found, {argv[1], ""}, unseen::planes::describe(options),
-                                                       "02_report", sample);
-  unseen::io::write_file_atomically(argv[2], page);
+  const unseen::report::InputRecord input = {argv[1], ""};
+  const std::string scene =
+      unseen::report::planes_scene(found, input, unseen::planes::describe(options), "02_report", sample);
+  unseen::io::write_file_atomically(argv[2], unseen::report::page_of(unseen::report::planes_title(found, input), {scene}));
   std::printf("%zu planes in %zu frames: %s\n", found.planes.size(), found.frames.size(), argv[2]);
   return 0;
 } catch (const unseen::InputError& e) {

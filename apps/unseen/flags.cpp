@@ -69,11 +69,11 @@ const std::string& require(const std::string& value, const std::string& what) {
   return value;
 }
 
-std::string shell_command(int argc, char** argv) {
+std::string shell_command(const std::vector<std::string>& words) {
   constexpr const char* kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./,:@%";
   std::string command = "unseen";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string& word = words[i];
     if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
       command += " " + word;
       continue;

@@ -48,7 +48,7 @@ void add_flags(CLI::App& app, CommonFlags& flags);
 /// A positional or an option that only counts once --dump-config is out of the way.
 const std::string& require(const std::string& value, const std::string& what);
 
-/// The command line as one can paste it into a shell.
-std::string shell_command(int argc, char** argv);
+/// A command line as one can paste it into a shell; the first word becomes "unseen".
+std::string shell_command(const std::vector<std::string>& words);
 
 }  // namespace unseen::cli

@@ -16,14 +16,17 @@
 #include "unseen/io/output_folder.h"
 #include "unseen/io/points.h"
 #include "unseen/io/sha256.h"
+#include "unseen/report/page.h"
 #include "unseen/report/planes_files.h"
-#include "unseen/report/planes_page.h"
 #include "unseen/report/planes_result.h"
+#include "unseen/report/planes_scene.h"
 #include "unseen/report/points_file.h"
 #include "write_text.h"
 
 namespace unseen::cli {
 namespace {
+
+constexpr std::size_t kPointsInModels = 200'000;
 
 /// Everything that `unseen planes` can be told.
 struct Arguments {
@@ -88,7 +91,8 @@ void write_files(const planes::Arrangement& a, const Arguments& args, const Opti
   const report::InputRecord input = {args.input, io::sha256(args.input, context)};
   if (!args.no_report)
     write_text(out.file("report.html"),
-               report::planes_page(a, input, table, args.shell_command, streamed.sample));
+               report::page_of(report::planes_title(a, input),
+                               {report::planes_scene(a, input, table, args.shell_command, streamed.sample)}));
   write_text(out.file("result.json"), report::planes_json(a, input, table));
   if (a.summary.status == Status::infeasible) {
     streamed.points.reset();
@@ -104,8 +108,9 @@ void write_files(const planes::Arrangement& a, const Arguments& args, const Opti
   write_text(out.file("planes.obj"), report::planes_obj(a, "planes.mtl"));
   write_text(out.file("planes.mtl"), report::planes_mtl(a));
   write_text(out.file("planes.csv"), report::planes_csv(a));
-  write_text(out.file("scene.glb"), report::planes_glb(a, streamed.sample));
-  write_text(out.file("scene.usda"), report::planes_usda(a, streamed.sample));
+  const report::PointSample few = report::thinned(streamed.sample, kPointsInModels);
+  write_text(out.file("scene.glb"), report::planes_glb(a, few));
+  write_text(out.file("scene.usda"), report::planes_usda(a, few));
   if (!a.two_dimensional) return;
   write_text(out.file("drawing.dxf"), report::drawing_dxf(a));
   write_text(out.file("drawing.svg"), report::drawing_svg(a));

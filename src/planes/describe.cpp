@@ -84,6 +84,7 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
       for (const int c : part.cells) points.push_back(grid.moments[c].mean);
       if (space.is_2d()) {
         plane.segment = segment_of(points, plane.plane, space.flat_axis->cross(plane.plane.normal), grid.edge);
+        for (Vec3& end : *plane.segment) end += (space.flat_at - space.flat_axis->dot(end)) * *space.flat_axis;
         plane.area = ((*plane.segment)[1] - (*plane.segment)[0]).norm();
         continue;
       }

@@ -14,6 +14,7 @@ namespace unseen::planes {
 /// drawing a "plane" is a line; its normal is orthogonal to `flat_axis`.
 struct Space {
   std::optional<Vec3> flat_axis;
+  double flat_at = 0;  ///< m, that coordinate
 
   bool is_2d() const { return flat_axis.has_value(); }
   /// The part of `v` that a normal may have.

@@ -117,6 +117,7 @@ Space space_of(const Survey& survey, bool declared_2d) {
   if (declared_2d) space.flat_axis = Vec3::UnitZ();
   for (int a = 2; a >= 0 && !space.is_2d(); --a)
     if (extent[a] == 0.0 && extent[(a + 1) % 3] > 0.0 && extent[(a + 2) % 3] > 0.0) space.flat_axis = Vec3::Unit(a);
+  if (space.is_2d()) space.flat_at = space.flat_axis->dot(survey.low);
   return space;
 }
 

@@ -94,6 +94,16 @@ Vec3 JsonField::unit_vector() const {
   return v;
 }
 
+std::optional<OptionInput> JsonField::option() const {
+  if (value_->is_null()) return std::nullopt;
+  if (value_->is_boolean()) return value_->get<bool>();
+  if (value_->is_string()) return text();
+  if (!value_->is_array()) return number();
+  std::vector<double> numbers;
+  for (const JsonField& n : list()) numbers.push_back(n.number());
+  return numbers;
+}
+
 void JsonField::fail(const std::string& expected) const {
   constexpr std::size_t kLongest = 60;
   std::string found;

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "unseen/core/geometry.h"
+#include "unseen/core/options.h"
 
 namespace unseen::report {
 
@@ -41,6 +43,9 @@ class JsonField {
   Vec3 vector() const;
   /// A vector of length 1 within 1e-6.
   Vec3 unit_vector() const;
+
+  /// A boolean, a number, a text or numbers, as options are; nothing for null.
+  std::optional<OptionInput> option() const;
 
   [[noreturn]] void fail(const std::string& expected) const;
 

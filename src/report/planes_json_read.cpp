@@ -132,6 +132,18 @@ planes::Arrangement parse_planes_result(const std::string& text, const std::stri
   return a;
 }
 
+StoredRun read_stored_run(const std::filesystem::path& path) {
+  const nlohmann::json parsed = parse_json(read_text(path), path.string());
+  const JsonField json(parsed, path.string());
+  StoredRun run;
+  run.capability = json["capability"].text();
+  run.input.path = json["input"]["path"].text();
+  if (const JsonField sha = json["input"]["sha256"]; !sha.is_null()) run.input.sha256 = sha.text();
+  for (const auto& [name, field] : json["options"].members())
+    if (auto value = field.option()) run.options.emplace_back(name, std::move(*value));
+  return run;
+}
+
 planes::Arrangement read_planes_result(const std::filesystem::path& path) {
   return parse_planes_result(read_text(path), path.string());
 }

@@ -129,9 +129,7 @@ double spacing_of(const planes::Arrangement& a, std::size_t points) {
 }
 
 void add_points(UsdText& usd, const planes::Arrangement& a, const PointSample& points, const Vec3& offset) {
-  PointSample few;
-  few.limit = kMostPoints;
-  few.add(points.positions, points.plane_of_point);
+  const PointSample few = thinned(points, kMostPoints);
   const double width = spacing_of(a, few.positions.size());
   std::vector<Rgb> colors = {plane_color(-1, -1)};  // entry p + 1 is plane p's
   for (std::size_t p = 0; p < a.planes.size(); ++p)
@@ -149,7 +147,7 @@ void add_points(UsdText& usd, const planes::Arrangement& a, const PointSample& p
 
 std::string planes_usda(const planes::Arrangement& a, const PointSample& points) {
   const auto surfaces = surfaces_of(a);
-  const Vec3 offset = storage_offset(surfaces, points);
+  const Vec3 offset = offset_of(surfaces, points);
   UsdText usd(
       fmt::format("#usda 1.0\n(\n    defaultPrim = \"unseen\"\n    doc = \"planes of unseen {}\"\n"
                   "    metersPerUnit = 1\n    upAxis = \"Z\"\n)\n\n",

@@ -30,4 +30,13 @@ void PointSample::add(std::span<const Vec3> block, std::span<const int> planes) 
   }
 }
 
+PointSample thinned(const PointSample& sample, std::size_t limit) {
+  PointSample fewer;
+  fewer.limit = limit;
+  fewer.add(sample.positions, sample.plane_of_point);
+  fewer.step *= sample.step;
+  fewer.seen = sample.seen;
+  return fewer;
+}
+
 }  // namespace unseen::report

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include "report/surfaces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "unseen/report/planes_files.h"
@@ -23,7 +24,7 @@ std::vector<Surface> surfaces_of(const planes::Arrangement& arrangement) {
   return surfaces;
 }
 
-Vec3 storage_offset(const std::vector<Surface>& surfaces, const PointSample& points) {
+Vec3 offset_of(const std::vector<Surface>& surfaces, const PointSample& points) {
   Eigen::AlignedBox3d box;
   for (const Surface& s : surfaces)
     for (const Vec3& v : s.vertices) box.extend(v);

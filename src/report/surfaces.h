@@ -19,8 +19,8 @@ struct Surface {
 /// One a plane, in the order of the planes; empty where a plane has neither polygon nor segment.
 std::vector<Surface> surfaces_of(const planes::Arrangement& arrangement);
 
-/// What float32 cannot hold to a millionth of the scene's size (UTM coordinates) is stored relative to this
-/// point: the middle of surfaces and points, m, rounded to whole metres. Zero for scenes near the origin.
-Vec3 storage_offset(const std::vector<Surface>& surfaces, const PointSample& points);
+/// What to subtract from world coordinates that float32 cannot hold to a millionth of the scene's size: the scene's
+/// middle, rounded to whole metres; else zero.
+Vec3 offset_of(const std::vector<Surface>& surfaces, const PointSample& points);
 
 }  // namespace unseen::report

@@ -61,7 +61,8 @@ class Drawing(ExchangeTest):
         self.check_svg(root, self.segments(), (left, top, width, height))
 
     def check_svg(self, root, segments, box):
-        x0, y0 = map(float, re.fullmatch(r".*x = x \+ (\S+), world y = (\S+) - y", root.find(SVG + "desc").text).groups())
+        formula = re.fullmatch(r".*world x = x \+ (\S+), world y = (\S+) - y", root.find(SVG + "desc").text)
+        x0, y0 = map(float, formula.groups())
         seen = set()
         for group in root.findall(SVG + "g"):
             frame = int(group.get("id").removeprefix("frame_"))

@@ -5,7 +5,8 @@
 import dataclasses
 import re
 
-TOKEN = re.compile(r'\s*(?:("(?:[^"\\\n]|\\.)*")|(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?![\w.])|([A-Za-z_][\w:]*)|([][(){}=,]))')
+TOKEN = re.compile(r'\s*(?:("(?:[^"\\\n]|\\.)*")|(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?![\w.])|([A-Za-z_][\w:]*)'
+                   r'|([][(){}=,]))')
 NUMBERS = {"int": 1, "float": 1, "double3": 3, "point3f": 3, "float3": 3, "color3f": 3}
 PRIMS = {"Xform", "Mesh", "Points", "BasisCurves"}
 

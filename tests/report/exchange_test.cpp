@@ -99,10 +99,10 @@ TEST(Exchange, NothingIsAFileToo) {
     for (const char* number : {"nan", "inf"}) EXPECT_EQ(text.find(number), std::string::npos) << text;
 }
 
-TEST(StorageOffset, IsOnlyForFarScenes) {
-  EXPECT_EQ(storage_offset(surfaces_of(sample_room({3, 4, 5})), {}), Vec3::Zero());
+TEST(OffsetOf, IsOnlyForFarScenes) {
+  EXPECT_EQ(offset_of(surfaces_of(sample_room({3, 4, 5})), {}), Vec3::Zero());
   const Vec3 far(500000.25, 5400000.75, 321.5);
-  EXPECT_LT((storage_offset(surfaces_of(sample_room(far)), {}) - far).norm(), 5);
+  EXPECT_LT((offset_of(surfaces_of(sample_room(far)), {}) - far).norm(), 5);
 }
 
 }  // namespace

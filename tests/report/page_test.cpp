@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "unseen/report/planes_page.h"
+#include "unseen/report/page.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "report/html.h"
-#include "report/sample.h"
-#include "unseen/planes/options.h"
+#include "unseen/report/point_sample.h"
 
 namespace unseen::report {
 namespace {
@@ -17,15 +14,6 @@ std::size_t occurrences(const std::string& text, const std::string& of) {
   std::size_t count = 0;
   for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + of.size())) ++count;
   return count;
-}
-
-std::string page_of(const planes::Arrangement& a, const std::string& path) {
-  planes::Options options;
-  PointSample points;
-  for (std::size_t p = 0; p < a.planes.size(); ++p)
-    if (!a.planes[p].polygon.empty())
-      points.add(a.planes[p].polygon[0], std::vector<int>(4, static_cast<int>(p)));
-  return planes_page(a, {path, ""}, planes::describe(options), "unseen planes '" + path + "' -o out", points);
 }
 
 TEST(Escape, ReplacesWhatHtmlWouldRead) {
@@ -40,49 +28,33 @@ TEST(Escape, ReplacesWhatHtmlWouldRead) {
   EXPECT_EQ(escape("\xed\xa0\x80"), bad + bad + bad);
 }
 
-TEST(Page, HostileNamesStayText) {
-  planes::Arrangement a = sample_room();
-  a.planes[3].tag = "<svg onload=alert(2)>";
-  a.summary.warnings.push_back("</p><script>alert(3)</script>");
-  const std::string page = page_of(a, "x/<script>alert(1)<\\script>\"'&.ply");
-  EXPECT_EQ(page.find("<script"), std::string::npos);
-  EXPECT_EQ(page.find("<svg onload"), std::string::npos);
-  EXPECT_NE(page.find("&lt;script&gt;alert(1)"), std::string::npos);
+TEST(Page, HoldsItsScenesAndATitleThatStaysText) {
+  const std::string page = page_of("a <b> & c", {"AAAA", "BBBB"});
+  EXPECT_EQ(occurrences(page, "<title>a &lt;b&gt; &amp; c</title>"), 1u);
+  EXPECT_EQ(occurrences(page, "class=\"unseen-scene\">AAAA</script>"), 1u);
+  EXPECT_LT(page.find("AAAA"), page.find("BBBB"));
+  EXPECT_EQ(occurrences(page, "<!--unseen:"), 0u);
+  EXPECT_EQ(page.substr(0, 15), "<!DOCTYPE html>");
 }
 
-TEST(Page, StandsAloneAndShowsEveryPlane) {
-  const std::string page = page_of(sample_room(), "room.ply");
-  EXPECT_EQ(page.find("http://"), std::string::npos);
-  EXPECT_EQ(page.find("https://"), std::string::npos);
-  EXPECT_NE(page.find("<title>Planes of room.ply</title>"), std::string::npos);
-  EXPECT_EQ(occurrences(page, "<svg "), 3u);
-  EXPECT_EQ(occurrences(page, "class=\"plane\""), 10u);
-  EXPECT_EQ(page.find("-0.0000"), std::string::npos);
-  EXPECT_NE(page.find("normals unusable: &lt;re-estimated&gt;"), std::string::npos);
-  for (const char* tag : {"table", "div", "figure", "svg", "pre", "p", "h2", "tr", "span"})
-    EXPECT_EQ(
-        occurrences(page, std::string("<") + tag + ">") + occurrences(page, std::string("<") + tag + " "),
-        occurrences(page, std::string("</") + tag + ">"))
-        << tag;
+TEST(Page, AsksForNothing) {
+  const std::string page = page_of("", {});
+  for (const char* way : {"src=\"http", "href=\"http", "@import", "url(http"}) EXPECT_EQ(occurrences(page, way), 0u) << way;
+  EXPECT_GE(occurrences(page, "default-src 'none'"), 1u);
 }
 
-TEST(Page, CeilingsGoOnlyWhereTheyHideAFloor) {
-  planes::Arrangement a = sample_room();
-  a.planes[3].tag = "ceiling";
-  EXPECT_EQ(occurrences(page_of(a, "room.ply"), "class=\"plane\""), 8u);
-  a.planes[0].tag = "";
-  EXPECT_EQ(occurrences(page_of(a, "roof.ply"), "class=\"plane\""), 10u);
-}
-
-TEST(Page, DrawingsAndNothingAreDrawn) {
-  const std::string drawing = page_of(sample_drawing(), "plan.png");
-  EXPECT_EQ(occurrences(drawing, "class=\"segment\""), 2u);
-  planes::Arrangement nothing;
-  nothing.summary.status = Status::infeasible;
-  const std::string page = page_of(nothing, "");
-  EXPECT_NE(page.find("Status: infeasible"), std::string::npos);
-  for (const char* number : {"nan ", ">nan", "inf ", ">inf", "\"nan", "\"inf"})
-    EXPECT_EQ(page.find(number), std::string::npos) << number;
+TEST(PointSample, ThinsEvenlyAndSaysSo) {
+  PointSample sample;
+  sample.limit = 100;
+  std::vector<Vec3> points;
+  for (int i = 0; i < 1000; ++i) points.emplace_back(i, 0, 0);
+  sample.add(points, std::vector<int>(1000, 3));
+  EXPECT_EQ(sample.step, 16u);
+  EXPECT_EQ(sample.positions.size(), 63u);
+  const PointSample fewer = thinned(sample, 20);
+  EXPECT_EQ(fewer.step, 64u);
+  EXPECT_EQ(fewer.seen, 1000u);
+  for (std::size_t i = 0; i < fewer.positions.size(); ++i) EXPECT_EQ(fewer.positions[i].x(), 64.0 * static_cast<double>(i));
 }
 
 }  // namespace

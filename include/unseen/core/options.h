@@ -44,6 +44,8 @@ class OptionTable {
   void set(const std::string& name, const OptionInput& value, const std::string& source);
   /// The same from text, as a command line gives it: "0.05", "true", "60,90".
   void set_text(const std::string& name, const std::string& text, const std::string& source);
+  /// The current value of an option as text; throws like set() if there is none of that name.
+  std::string text_of(const std::string& name) const { return find(name, "").text(); }
 
  private:
   const Option& find(const std::string& name, const std::string& source) const;

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "unseen/core/options.h"
 #include "unseen/core/summary.h"
@@ -16,6 +18,16 @@ struct InputRecord {
   std::string path;    ///< as the caller gave it
   std::string sha256;  ///< of its bytes, 64 hexadecimal digits; empty if it was never a file
 };
+
+/// How a result was made, as its result.json says.
+struct StoredRun {
+  std::string capability;
+  InputRecord input;
+  std::vector<std::pair<std::string, OptionInput>> options;  ///< those that have a value
+};
+
+/// Reads that part of a result.json of any capability. Throws InputError naming file and field.
+StoredRun read_stored_run(const std::filesystem::path& path);
 
 /// The summary as one JSON object, as it stands in result.json: status, seconds, energy, counts, warnings.
 std::string summary_json(const Summary& summary);

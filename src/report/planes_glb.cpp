@@ -134,7 +134,7 @@ void add_points(Builder& b, const planes::Arrangement& a, const PointSample& poi
 std::string planes_glb(const planes::Arrangement& a, const PointSample& points) {
   const auto surfaces = surfaces_of(a);
   Builder b;
-  b.offset = storage_offset(surfaces, points);
+  b.offset = offset_of(surfaces, points);
   b.model.asset.version = "2.0";
   b.model.asset.generator = std::string("unseen ") + kVersion;
   b.model.buffers.emplace_back();

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "session.h"
+#include "unseen/core/error.h"
+#include "unseen/io/describe.h"
+#include "unseen/io/output_folder.h"
+#include "unseen/io/points.h"
+#include "unseen/planes/options.h"
+#include "unseen/report/page.h"
+#include "unseen/report/planes_scene.h"
+#include "write_text.h"
+
+extern char** environ;
+
+namespace unseen::cli {
+namespace {
+
+struct Arguments {
+  std::string first, second, page;
+  CommonFlags common;
+  bool open = false;
+};
+
+struct Shown {
+  std::string title, scene;
+};
+
+/// The points of a result with their planes, from its points.ply; none if it was left out.
+report::PointSample read_points(const std::filesystem::path& path, std::size_t plane_count, Context& context) {
+  report::PointSample sample;
+  if (!std::filesystem::exists(path)) return sample;
+  io::ReadOptions read;
+  read.label_field = "plane";
+  const auto source = io::open_points(path, read);
+  const double total = static_cast<double>(source->info().point_count.value_or(1));
+  for_each_block(*source, [&](const PointCloud& block, std::size_t first) {
+    for (const int plane : block.labels)
+      if (plane < -1 || plane >= static_cast<int>(plane_count))
+        throw InputError(path.string(), "plane", fmt::format("{}", plane), fmt::format("-1…{}, as result.json has planes", static_cast<int>(plane_count) - 1));
+    sample.add(block.positions, block.labels);
+    context.progress(static_cast<double>(first + block.size()) / total);
+  });
+  return sample;
+}
+
+/// The command line that made a result, by what its options say that is not the default.
+std::string command_of(const report::StoredRun& run, const std::string& out, OptionTable& table) {
+  std::vector<std::string> words = {"unseen", run.capability, run.input.path, "-o", out};
+  for (const auto& [name, value] : run.options) {
+    const std::string before = table.text_of(name);
+    table.set(name, value, out);
+    if (table.text_of(name) == before) continue;
+    words.push_back("--" + name);
+    std::replace(words.back().begin(), words.back().end(), '_', '-');
+    if (!std::holds_alternative<bool>(value)) words.push_back(table.text_of(name));
+  }
+  return shell_command(words);
+}
+
+Shown planes_result(const std::filesystem::path& folder, const report::StoredRun& run, Context& context) {
+  const planes::Arrangement a = report::read_planes_result(folder / "result.json");
+  planes::Options options;
+  io::ReadOptions read;
+  OptionTable table = planes::describe(options);
+  append(table, io::describe(read));
+  const std::string command = command_of(run, folder.string(), table);
+  const report::PointSample points = read_points(folder / "points.ply", a.planes.size(), context);
+  return {report::planes_title(a, run.input), report::planes_scene(a, run.input, table, command, points)};
+}
+
+Shown read_result(const std::string& out, Context& context) {
+  const std::filesystem::path folder(out), file = folder / "result.json";
+  if (!std::filesystem::is_directory(folder)) throw InputError(out, "folder", "none", "the folder of a result");
+  if (!std::filesystem::exists(file)) throw InputError(file.string(), "file", "none", "the result.json of a run");
+  const report::StoredRun run = report::read_stored_run(file);
+  if (run.capability == "planes") return planes_result(folder, run, context);
+  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\"");
+}
+
+/// Shows a file in what the desktop opens pages with.
+void open_in_browser(const std::string& page) {
+  std::string opener = "xdg-open", file = page;
+  char* const words[] = {opener.data(), file.data(), nullptr};
+  pid_t child = 0;
+  int status = 1;
+  if (posix_spawnp(&child, opener.c_str(), nullptr, nullptr, words, environ) != 0 || waitpid(child, &status, 0) < 0 || status != 0)
+    throw InputError(page, "--open", "no program that opens it", "xdg-open; the page itself is written");
+}
+
+int run(Arguments& args) {
+  require(args.first, "OUT");
+  Session session(args.common);
+  Summary summary;
+  std::vector<std::string> scenes;
+  std::string title;
+  {
+    const Stage stage(session.context, summary, "view");
+    for (const std::string& out : {args.first, args.second}) {
+      if (out.empty()) continue;
+      Shown shown = read_result(out, session.context);
+      title += (title.empty() ? "" : " | ") + shown.title;
+      scenes.push_back(std::move(shown.scene));
+    }
+  }
+  const std::filesystem::path standard = std::filesystem::path(args.first) / (scenes.size() == 1 ? "report.html" : "compare.html");
+  const std::string page = args.page.empty() ? standard.string() : args.page;
+  io::AtomicFile file(page);
+  write_text(file.path(), report::page_of(title, scenes));
+  file.commit();
+  if (args.common.json) {
+    fmt::print("{}", report::summary_json(summary));
+  } else if (!args.common.quiet) {
+    fmt::print("page: {}\n", page);
+  }
+  if (args.open) open_in_browser(page);
+  return kSolved;
+}
+
+}  // namespace
+
+Command add_view(CLI::App& app) {
+  auto args = std::make_shared<Arguments>();
+  CLI::App* sub = app.add_subcommand("view", "Write the page of a result again, or one that shows two side by side");
+  sub->add_option("OUT", args->first, "the folder of a result");
+  sub->add_option("OTHER", args->second, "the folder of another one, to be shown beside it");
+  sub->add_option("-o", args->page, "the page to write (default OUT/report.html, for two results OUT/compare.html)")->type_name("PAGE");
+  sub->add_flag("--open", args->open, "open it in the browser");
+  add_flags(*sub, args->common);
+  sub->footer("Examples:\n  unseen view out --open\n  unseen view out_5cm out_10cm -o compare.html");
+  return {sub, [args] { return run(*args); }};
+}
+
+}  // namespace unseen::cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/report/planes_scene.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "report/planes_structures.h"
+#include "unseen/core/version.h"
+
+namespace unseen::report {
+namespace {
+
+using planes::Arrangement;
+
+std::size_t count_of(const Summary& summary, std::string_view name) {
+  for (const auto& [key, value] : summary.counts)
+    if (key == name) return value;
+  return 0;
+}
+
+Json column(std::string_view name, std::string_view unit = "", int digits = -1) {
+  Json json = {{"name", name}, {"unit", unit}};
+  if (digits >= 0) json["digits"] = digits;
+  return json;
+}
+
+void add_table(SceneBuilder& scene, const Arrangement& a) {
+  Json rows = Json::array();
+  for (std::size_t p = 0; p < a.planes.size(); ++p) {
+    const planes::ArrangedPlane& plane = a.planes[p];
+    const Vec3& n = plane.plane.normal;
+    rows.push_back({p, plane.tag, plane.frame, plane.direction, number(n.x()), number(n.y()), number(n.z()),
+                    number(plane.plane.offset), number(plane.area), plane.points, number(1000.0 * plane.rms)});
+  }
+  const bool flat = a.two_dimensional;
+  scene.header["tables"].push_back(
+      {{"title", flat ? "Lines" : "Planes"},
+       {"structure", "planes"},
+       {"columns",
+        {column(flat ? "line" : "plane"), column("tag"), column("frame"), column("direction"), column("normal x", "", 4),
+         column("normal y", "", 4), column("normal z", "", 4), column("offset", "m", 3),
+         column(flat ? "length" : "area", flat ? "m" : "m²", 3), column("points"), column("rms", "mm", 2)}},
+       {"rows", std::move(rows)}});
+}
+
+Json facts_of(const Arrangement& a) {
+  const std::size_t points = count_of(a.summary, "points"), assigned = count_of(a.summary, "assigned");
+  const auto fact = [](std::string_view name, std::string value) { return Json{{"name", name}, {"value", std::move(value)}}; };
+  const std::string things = a.two_dimensional ? "lines" : "planes";
+  return {fact(things, std::to_string(a.planes.size())), fact("orientation frames", std::to_string(a.frames.size())),
+          fact("directions", std::to_string(a.directions.size())), fact("relations", std::to_string(a.relations.size())),
+          fact("related pairs of " + things, std::to_string(a.plane_relations)), fact("points", std::to_string(points)),
+          fact("points explained", points > 0 ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(assigned) / static_cast<double>(points)) : "–"),
+          fact("scale", fmt::format("{:.4g} m", a.scale))};
+}
+
+}  // namespace
+
+std::string planes_scene(const Arrangement& a, const InputRecord& input, const OptionTable& options,
+                         const std::string& command, const PointSample& sample) {
+  const std::vector<Surface> surfaces = surfaces_of(a);
+  const OrderedPoints points = ordered(sample, a.planes.size());
+  const Vec3 offset = offset_of(surfaces, sample);
+  SceneBuilder scene(offset);
+  Json& header = scene.header;
+  header["title"] = planes_title(a, input);
+  header["capability"] = "planes";
+  header["command"] = command;
+  header["version"] = kVersion;
+  header["flat"] = a.two_dimensional;
+  header["facts"] = facts_of(a);
+  header["summary"] = summary_of(a.summary);
+  header["options"] = Json::array();
+  for (const Option& o : options.all())
+    header["options"].push_back({{"name", o.name}, {"value", o.text()}, {"unit", o.unit}, {"help", o.help}});
+  header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
+  if (sample.step > 1) header["thinned"] = {{"shown", sample.positions.size()}, {"of", sample.seen}};
+  add_surfaces(scene, a, surfaces, points);
+  if (!points.positions.empty()) add_points(scene, a, points);
+  add_relations(scene, a);
+  add_normals(scene, a, points);
+  add_table(scene, a);
+  return scene.encode();
+}
+
+std::string planes_title(const Arrangement& a, const InputRecord& input) {
+  const std::string name = std::filesystem::path(input.path).filename().string();
+  return (a.two_dimensional ? "Lines of " : "Planes of ") + (name.empty() ? input.path : name);
+}
+
+}  // namespace unseen::report
