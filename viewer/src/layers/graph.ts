@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// A graph whose nodes have places: dots, edges, and forces as arrows.
+import * as THREE from 'three';
+import type { GraphStructure } from '../format';
+import { nodeColors } from '../panels/graph';
+import { FatLines } from '../view/fat_lines';
+import { ElementTable } from '../view/shared';
+import { TriMesh } from '../view/tri_mesh';
+import { ColoredLayer } from './colored';
+import type { Hit, LayerContext, Look, View } from './layer';
+import { sphere } from './solids';
+
+export class GraphLayer extends ColoredLayer {
+  private readonly places: Float32Array;
+  private readonly ink = new ElementTable(2);
+
+  constructor(context: LayerContext, structure: GraphStructure, extent: number) {
+    const { model, shared } = context;
+    super(context, structure, structure.node_names.length, nodeColors(model, structure));
+    this.places = model.floats(structure.positions!);
+    this.bounds.setFromArray(this.places);
+    const radius = 0.011 * extent;
+    const ball = sphere([2 * radius, 2 * radius, 2 * radius], 8);
+    const n = ball.vertices.length / 3;
+    const vertices = new Float32Array(3 * n * this.count), owner = new Uint32Array(n * this.count), triangles: number[] = [];
+    for (let i = 0; i < this.count; ++i) {
+      for (let k = 0; k < n; ++k) {
+        owner[i * n + k] = i;
+        for (let c = 0; c < 3; ++c) vertices[3 * (i * n + k) + c] = ball.vertices[3 * k + c]! + this.places[3 * i + c]!;
+      }
+      for (const t of ball.triangles) triangles.push(i * n + t);
+    }
+    const edges = model.stored(structure.edges);
+    const m = structure.edges.count;
+    const segments = new Float32Array(6 * m);
+    for (let e = 0; e < m; ++e)
+      for (let s = 0; s < 2; ++s) segments.set(this.places.subarray(3 * edges[2 * e + s]!, 3 * edges[2 * e + s]! + 3), 6 * e + 3 * s);
+    const lines = new FatLines(shared, this.ink, { width: 2 });
+    lines.set(segments, new Uint8Array(m));
+    this.object.add(new TriMesh(shared, this.table, vertices, owner, triangles).object, lines.object);
+    if (structure.vectors) this.addForces(model.floats(structure.vectors), segments, extent);
+  }
+
+  /** Forces act on the second node of an edge, drawn at the edge's middle; the longest is an eighth of the scene. */
+  private addForces(vectors: Float32Array, segments: Float32Array, extent: number) {
+    let most = 0;
+    for (let e = 0; e < vectors.length / 3; ++e) most = Math.max(most, Math.hypot(vectors[3 * e]!, vectors[3 * e + 1]!, vectors[3 * e + 2]!));
+    const scale = most > 0 ? extent / 8 / most : 0;
+    const out: number[] = [];
+    for (let e = 0; e < vectors.length / 3; ++e) {
+      const v = new THREE.Vector3().fromArray(vectors, 3 * e).multiplyScalar(scale);
+      const from = new THREE.Vector3().fromArray(segments, 6 * e).add(new THREE.Vector3().fromArray(segments, 6 * e + 3)).multiplyScalar(0.5);
+      const to = from.clone().add(v);
+      out.push(...from.toArray(), ...to.toArray());
+      const aside = new THREE.Vector3(v.y, -v.x, 0);
+      if (aside.lengthSq() < 1e-3 * v.lengthSq()) aside.set(v.z, 0, -v.x);
+      aside.setLength(0.12 * v.length());
+      for (const sign of [1, -1]) out.push(...to.toArray(), ...to.clone().addScaledVector(v, -0.22).addScaledVector(aside, sign).toArray());
+    }
+    const arrows = new FatLines(this.context.shared, this.ink, { width: 2.4, onTop: true });
+    arrows.set(new Float32Array(out), new Uint8Array(out.length / 6).fill(1));
+    this.object.add(arrows.object);
+  }
+
+  override update(look: Look) {
+    super.update(look);
+    const v = look.dark ? 190 : 90;
+    this.ink.set(0, v, v, v, 220);
+    this.ink.set(1, 213, 94, 0, 255);
+    this.ink.commit();
+  }
+
+  override pick(_ray: THREE.Ray, view: View, at: THREE.Vector2): Hit | null {
+    let best: Hit | null = null, nearest = 9;
+    for (let i = 0; i < this.count; ++i) {
+      const p = this.anchor(i);
+      const depth = p.clone().sub(_ray.origin).dot(_ray.direction);
+      p.project(view.camera);
+      const d = Math.hypot((p.x / 2 + 0.5) * view.width - at.x, (0.5 - p.y / 2) * view.height - at.y);
+      if (d < nearest && depth > 0) {
+        nearest = d;
+        best = { selection: { structure: this.structure.id, index: i }, distance: depth * 0.98 };
+      }
+    }
+    return best;
+  }
+
+  override anchor(i: number): THREE.Vector3 {
+    return new THREE.Vector3().fromArray(this.places, 3 * i);
+  }
+}

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// The page in a headless browser, from disk.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { launch, open } from './browser.mjs';
+import { Buffers, encodeScene, pageOf } from './make_scene.mjs';
+import { cloudScene } from './scene_cloud.mjs';
+import { collisionScene, cuboidsScene, interactionsScene, manyScene, planScene } from './scene_more.mjs';
+import { roomPlanes, roomScene } from './scene_room.mjs';
+
+let browser, room;
+before(async () => {
+  browser = await launch();
+  room = pageOf('Planes of room.ply', [roomScene({ points: 40000 })]);
+});
+after(() => browser?.close());
+
+const settle = (page) => page.evaluate(async () => {
+  await new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(r)));
+  await window.unseen.complete();
+});
+const selection = (page) => page.evaluate(() => window.unseen.selection());
+/** Colour of a place of the picture. */
+const pixel = async (page, { x, y }) => {
+  await settle(page);
+  return page.evaluate(({ x, y }) => {
+    const canvas = document.querySelector('.stage canvas'), box = canvas.getBoundingClientRect();
+    const copy = document.createElement('canvas');
+    copy.width = copy.height = 1;
+    const pen = copy.getContext('2d');
+    const scale = canvas.width / box.width;
+    pen.drawImage(canvas, (x - box.left) * scale, (y - box.top) * scale, 1, 1, 0, 0, 1, 1);
+    return [...pen.getImageData(0, 0, 1, 1).data].slice(0, 3);
+  }, { x, y });
+};
+const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+
+test('loads from disk without requests or errors', async () => {
+  for (const [name, scene] of [['room', roomScene({ points: 5000 })], ['plan', planScene()], ['collision', collisionScene()], ['cuboids', cuboidsScene()], ['interactions', interactionsScene()]]) {
+    const { page, requests, errors, close } = await open(browser, name, pageOf(name, [scene]));
+    await settle(page);
+    assert.deepEqual(requests, [], name);
+    assert.deepEqual(errors, [], name);
+    assert.equal(await page.title(), name);
+    await close();
+  }
+});
+
+test('a click selects the plane under it, Esc clears', async () => {
+  const { page, errors, close } = await open(browser, 'click', room);
+  for (const plane of [11, 6, 16]) {
+    const at = await page.evaluate((p) => window.unseen.project('planes', p), plane);
+    await page.mouse.click(at.x, at.y);
+    assert.deepEqual(await selection(page), { structure: 'planes', index: plane });
+    assert.match(await page.locator('.selection h3').innerText(), new RegExp(`Plane ${plane} · ${roomPlanes()[plane].tag}`));
+    assert.equal(await page.locator(`tr[data-row="${plane}"]`).getAttribute('aria-selected'), 'true');
+    assert.match(await page.locator('[aria-live]').innerText(), new RegExp(`Plane ${plane}`));
+  }
+  // With the planes off, their points select them.
+  await page.evaluate(() => { window.unseen.select(null); window.unseen.setLayer('planes', false); });
+  const at = await page.evaluate(() => window.unseen.project('planes', 11));
+  await page.mouse.click(at.x, at.y);
+  assert.deepEqual(await selection(page), { structure: 'planes', index: 11 });
+  await page.keyboard.press('Escape');
+  assert.equal(await selection(page), null);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test('layers and colours change the picture', async () => {
+  const { page, close } = await open(browser, 'layers', room);
+  await page.evaluate(() => window.unseen.setLayer('points', false));
+  const at = await page.evaluate(() => window.unseen.project('planes', 11));
+  const orange = await pixel(page, at);
+  assert.ok(distance(orange, [230, 159, 0]) < 90, `table in the second colour: ${orange}`);
+  await page.evaluate(() => window.unseen.setColor('planes', 'rms'));
+  assert.ok(distance(await pixel(page, at), orange) > 40);
+  await page.getByRole('checkbox', { name: /^Planes/ }).uncheck();
+  const background = await pixel(page, at);
+  assert.ok(distance(background, [238, 240, 242]) < 6, `background: ${background}`);
+  await close();
+});
+
+test('walls in front fade, and the section plane shows the inside', async () => {
+  const { page, close } = await open(browser, 'inside', room);
+  await page.evaluate(() => { window.unseen.setFading(false); window.unseen.view('top'); });
+  const at = await page.evaluate(() => window.unseen.project('planes', 11));
+  const over = () => page.evaluate((p) => window.unseen.pick(p.x, p.y).index, at);
+  assert.equal(await over(), 1, 'the ceiling hides the table');
+  await page.evaluate(() => window.unseen.setSection('z', 2));
+  assert.equal(await over(), 11, 'cut open below the ceiling');
+  assert.ok(distance(await pixel(page, at), [230, 159, 0]) < 90);
+  await page.evaluate(() => { window.unseen.setSection(null); window.unseen.setFading(true); });
+  await settle(page);
+  assert.equal(await over(), 11, 'the ceiling is faded');
+  await close();
+});
+
+test('before and after move planes', async () => {
+  const { page, close } = await open(browser, 'before', room);
+  const shot = async (x) => {
+    await page.evaluate((v) => window.unseen.setBefore(v), x);
+    await settle(page);
+    return page.locator('.stage canvas').screenshot();
+  };
+  const [free, result, again] = [await shot(0), await shot(1), await shot(0)];
+  assert.ok(!free.equals(result));
+  assert.ok(free.equals(again));
+  await close();
+});
+
+test('tables sort by click and keyboard, thousands of rows stay light', async () => {
+  const { page, errors, close } = await open(browser, 'many', pageOf('many', [manyScene(5000)]));
+  const head = page.getByRole('columnheader', { name: /length/ });
+  const values = async () => (await page.locator('tbody tr[data-row] td:nth-child(2)').allInnerTexts()).slice(0, 10).map(Number);
+  await head.getByRole('button').click();
+  assert.equal(await head.getAttribute('aria-sort'), 'ascending');
+  let v = await values();
+  assert.deepEqual(v, [...v].sort((a, b) => a - b));
+  await page.keyboard.press('Enter');
+  assert.equal(await head.getAttribute('aria-sort'), 'descending');
+  v = await values();
+  assert.deepEqual(v, [...v].sort((a, b) => b - a));
+  assert.ok((await page.locator('tbody tr').count()) < 80, 'only rows in sight are in the page');
+  await page.locator('.table-scroll').focus();
+  await page.keyboard.press('ArrowDown');
+  const first = await selection(page);
+  await page.keyboard.press('ArrowDown');
+  assert.notDeepEqual(await selection(page), first);
+  await page.keyboard.press('End');
+  await page.waitForTimeout(50);
+  assert.equal(await page.locator('tr[aria-selected="true"]').count(), 1, 'the last row is shown');
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test('graph, sphere and facts share the selection', async () => {
+  const { page, close } = await open(browser, 'graph', room);
+  await page.getByRole('tab', { name: 'Relations' }).click();
+  await page.locator('[data-node="0"] circle').click();
+  assert.deepEqual(await selection(page), { structure: 'directions', index: 0 });
+  await page.evaluate(() => window.unseen.select('planes', 3));
+  assert.equal(await page.locator('.node.selected').getAttribute('data-node'), '1');
+  assert.match(await page.locator('.selection').innerText(), /same direction[\s\S]*90°/);
+  await page.locator('.selection .chip').first().click();
+  assert.equal((await selection(page)).structure, 'planes');
+  await page.locator('canvas.sphere').focus();
+  await page.keyboard.press('ArrowRight');
+  assert.equal((await selection(page)).structure, 'normals');
+  await close();
+});
+
+test('keyboard: views, help, tabs', async () => {
+  const { page, close } = await open(browser, 'keys', room);
+  const shot = async () => { await settle(page); return page.locator('.stage canvas').screenshot(); };
+  const first = await shot();
+  await page.keyboard.press('2');
+  assert.ok(!(await shot()).equals(first), 'from above');
+  await page.keyboard.press('1');
+  assert.ok((await shot()).equals(first), 'and back');
+  await page.keyboard.press('?');
+  assert.ok(await page.getByRole('dialog').isVisible());
+  await page.keyboard.press('Escape');
+  assert.ok(!(await page.getByRole('dialog').isVisible()));
+  await page.getByRole('tab', { name: 'Found' }).focus();
+  await page.keyboard.press('ArrowLeft');
+  assert.equal(await page.getByRole('tab', { name: 'How it was made' }).getAttribute('aria-selected'), 'true');
+  assert.match(await page.locator('.command code').innerText(), /unseen planes room\.ply/);
+  await close();
+});
+
+test('time: play, step, and the image follows', async () => {
+  const { page, errors, close } = await open(browser, 'time', pageOf('time', [collisionScene()]));
+  const image = page.locator('.images img');
+  const source = await image.getAttribute('src');
+  await page.evaluate(() => window.unseen.setTime(1.5));
+  assert.notEqual(await image.getAttribute('src'), source);
+  await page.evaluate(() => window.unseen.setTime(0));
+  await page.locator('.stage canvas').focus();
+  await page.keyboard.press('ArrowRight');
+  assert.match(await page.locator('output[for=time]').innerText(), /0\.04 s/);
+  await page.keyboard.press(' ');
+  await page.waitForTimeout(400);
+  await page.keyboard.press(' ');
+  assert.ok(Number.parseFloat(await page.locator('output[for=time]').innerText()) > 0.1);
+  await page.getByRole('button', { name: 'Look through the camera' }).click();
+  await settle(page);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test('phone: nothing wider than the screen, a tap selects', async () => {
+  const { page, close } = await open(browser, 'phone', room, { width: 390, height: 844, touch: true });
+  for (const tab of ['Found', 'Relations', 'How it was made']) {
+    await page.getByRole('tab', { name: tab }).click();
+    const wide = await page.evaluate(() => [document.documentElement.scrollWidth, document.querySelector('.side-body').scrollWidth - document.querySelector('.side-body').clientWidth]);
+    assert.deepEqual(wide, [390, 0], tab);
+  }
+  const at = await page.evaluate(() => window.unseen.project('planes', 11));
+  await page.touchscreen.tap(at.x, at.y);
+  assert.deepEqual(await selection(page), { structure: 'planes', index: 11 });
+  await close();
+});
+
+test('two scenes side by side move together', async () => {
+  const { page, errors, close } = await open(browser, 'two', pageOf('two', [roomScene({ points: 5000, title: 'A' }), roomScene({ points: 5000, seed: 2, title: 'B' })]));
+  const stages = page.locator('.stage canvas');
+  assert.equal(await stages.count(), 2);
+  const first = await stages.nth(1).screenshot();
+  await stages.nth(0).hover({ position: { x: 60, y: 400 } });
+  await page.mouse.wheel(0, -300);
+  await settle(page);
+  assert.ok(!(await stages.nth(1).screenshot()).equals(first), 'zooming one zooms the other');
+  const at = await page.evaluate(() => window.unseen.project('planes', 11, 1));
+  await page.mouse.click(at.x, at.y);
+  assert.deepEqual(await page.evaluate(() => window.unseen.selection(1)), { structure: 'planes', index: 11 });
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test('broken, newer and missing scenes say so', async () => {
+  const newer = encodeScene({ scene: 99, title: 'x', structures: [] }, new Buffers());
+  for (const [name, scenes, says] of [['broken', ['H4sIAAAA'], /damaged/], ['text', ['%%%'], /damaged/], ['newer', [newer], /version 99/], ['none', [], /no scene/]]) {
+    const { page, close } = await open(browser, name, pageOf(name, scenes));
+    assert.match(await page.locator('[role=alert]').innerText(), says, name);
+    await close();
+  }
+});
+
+test('without WebGL the tables are there', async () => {
+  const hidden = room.replace('<head>', '<head><script>const get = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return /webgl/.test(kind) ? null : get.call(this, kind, ...rest); };</script>');
+  const { page, close } = await open(browser, 'no-webgl', hidden);
+  assert.match(await page.locator('[role=alert]').innerText(), /no WebGL/);
+  assert.equal(await page.locator('tbody tr[data-row]').count() > 10, true);
+  await close();
+});
+
+test('the picture can be exported', async () => {
+  const { page, close } = await open(browser, 'export', room);
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: /Export the picture/ }).click()]);
+  assert.match(download.suggestedFilename(), /\.png$/);
+  await close();
+});
+
+test('three million points', { timeout: 90000 }, async (t) => {
+  const { page, errors, close } = await open(browser, 'cloud', pageOf('cloud', [cloudScene(3e6)]));
+  const ready = await page.evaluate(() => performance.now());
+  await page.evaluate(() => window.unseen.complete());
+  const complete = await page.evaluate(() => performance.now());
+  t.diagnostic(`3 M points: first picture after ${(ready / 1000).toFixed(1)} s, all points after ${(complete / 1000).toFixed(1)} s`);
+  assert.ok(ready < 40000);
+  assert.deepEqual(errors, []);
+  await close();
+});
