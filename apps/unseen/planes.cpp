@@ -107,7 +107,13 @@ void write_files(const planes::Arrangement& a, const Arguments& args, const Opti
   write_text(out.file("planes.ply"), report::planes_ply(a));
   write_text(out.file("planes.obj"), report::planes_obj(a, "planes.mtl"));
   write_text(out.file("planes.mtl"), report::planes_mtl(a));
-  write_text(out.file("scene.glb"), report::planes_glb(a, report::thinned(streamed.sample, kPointsInModels)));
+  write_text(out.file("planes.csv"), report::planes_csv(a));
+  const report::PointSample few = report::thinned(streamed.sample, kPointsInModels);
+  write_text(out.file("scene.glb"), report::planes_glb(a, few));
+  write_text(out.file("scene.usda"), report::planes_usda(a, few));
+  if (!a.two_dimensional) return;
+  write_text(out.file("drawing.dxf"), report::drawing_dxf(a));
+  write_text(out.file("drawing.svg"), report::drawing_svg(a));
 }
 
 int run(Arguments& args) {

@@ -2,10 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include <tiny_gltf.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 

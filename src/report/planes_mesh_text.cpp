@@ -31,25 +31,27 @@ std::string material(int frame) {
 
 }  // namespace
 
+/// Vertices are coloured, too: many programs (Blender, Open3D, CloudCompare) pass over colours of faces.
 std::string planes_ply(const planes::Arrangement& a) {
   const auto surfaces = surfaces_of(a);
   const Sizes sizes = sizes_of(surfaces);
+  const std::string color = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   std::string text = fmt::format(
       "ply\nformat ascii 1.0\ncomment planes of unseen\nelement vertex {}\n"
-      "property double x\nproperty double y\nproperty double z\n",
-      sizes.vertices);
-  constexpr const char* kMembership =
-      "property int plane\nproperty int frame\nproperty uchar red\nproperty uchar green\nproperty uchar "
-      "blue\n";
+      "property double x\nproperty double y\nproperty double z\n{}",
+      sizes.vertices, color);
   if (a.two_dimensional)
     text += fmt::format("element edge {}\nproperty int vertex1\nproperty int vertex2\n", sizes.segments);
   else
     text += fmt::format("element face {}\nproperty list uchar int vertex_indices\n", sizes.triangles);
-  text += std::string(kMembership) + "end_header\n";
+  text += "property int plane\nproperty int frame\n" + color + "end_header\n";
 
   auto out = std::back_inserter(text);
-  for (const Surface& s : surfaces)
-    for (const Vec3& v : s.vertices) fmt::format_to(out, "{} {} {}\n", v.x(), v.y(), v.z());
+  for (std::size_t p = 0; p < surfaces.size(); ++p) {
+    const Rgb c = frame_color(a.planes[p].frame);
+    for (const Vec3& v : surfaces[p].vertices)
+      fmt::format_to(out, "{} {} {} {} {} {}\n", v.x(), v.y(), v.z(), c[0], c[1], c[2]);
+  }
   std::size_t first = 0;
   for (std::size_t p = 0; p < surfaces.size(); ++p) {
     const int frame = a.planes[p].frame;
@@ -64,6 +66,7 @@ std::string planes_ply(const planes::Arrangement& a) {
   return text;
 }
 
+/// Each plane is an object, too, because Blender tells only these apart.
 std::string planes_obj(const planes::Arrangement& a, const std::string& material_file) {
   const auto surfaces = surfaces_of(a);
   std::string text = "# planes of unseen\nmtllib " + material_file + "\n";
@@ -71,8 +74,8 @@ std::string planes_obj(const planes::Arrangement& a, const std::string& material
   std::size_t first = 1;
   for (std::size_t p = 0; p < surfaces.size(); ++p) {
     const std::string& tag = a.planes[p].tag;
-    fmt::format_to(out, "g plane_{}{}\nusemtl {}\n", p, tag.empty() ? "" : "_" + tag,
-                   material(a.planes[p].frame));
+    const std::string name = fmt::format("plane_{}{}", p, tag.empty() ? "" : "_" + tag);
+    fmt::format_to(out, "o {0}\ng {0}\nusemtl {1}\n", name, material(a.planes[p].frame));
     for (const Vec3& v : surfaces[p].vertices) fmt::format_to(out, "v {} {} {}\n", v.x(), v.y(), v.z());
     for (const Triangle& t : surfaces[p].triangles)
       fmt::format_to(out, "f {} {} {}\n", first + t[0], first + t[1], first + t[2]);

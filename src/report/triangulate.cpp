@@ -240,14 +240,19 @@ std::vector<Triangle> triangulate(const std::vector<Ring>& rings) {
 }
 
 std::vector<Triangle> triangulate(const planes::Polygon& polygon, const Vec3& normal) {
-  if (polygon.empty() || polygon[0].empty()) return {};
-  const Vec3 u = any_orthogonal(normal), v = normal.cross(u), origin = polygon[0][0];
+  const Vec3 u = any_orthogonal(normal);
+  return triangulate(flat_rings(polygon, u, normal.cross(u)));
+}
+
+std::vector<Ring> flat_rings(const planes::Polygon& polygon, const Vec3& u, const Vec3& v) {
   std::vector<Ring> rings;
+  if (polygon.empty() || polygon[0].empty()) return rings;
+  const Vec3 origin = polygon[0][0];
   for (const auto& ring : polygon) {
     Ring& flat = rings.emplace_back();
     for (const Vec3& p : ring) flat.emplace_back(u.dot(p - origin), v.dot(p - origin));
   }
-  return triangulate(rings);
+  return rings;
 }
 
 }  // namespace unseen::report

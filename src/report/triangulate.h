@@ -24,6 +24,10 @@ std::vector<Triangle> triangulate(const std::vector<Ring>& rings);
 /// The same for a polygon in space; triangles are counter-clockwise seen from the tip of `normal`.
 std::vector<Triangle> triangulate(const planes::Polygon& polygon, const Vec3& normal);
 
+/// The rings of a polygon by their coordinates along two orthogonal unit vectors of its plane, seen from its
+/// first point.
+std::vector<Ring> flat_rings(const planes::Polygon& polygon, const Vec3& u, const Vec3& v);
+
 /// Twice the signed area of a ring, positive if counter-clockwise.
 double doubled_area(const Ring& ring);
 

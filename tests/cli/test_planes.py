@@ -17,7 +17,7 @@ class Planes(CliTest):
         self.assertEqual(run.returncode, 0, run.stderr)
         out = self.folder / "out"
         self.assertEqual(set(contents(out)), {"result.json", "points.ply", "planes.ply", "planes.obj", "planes.mtl",
-                                              "scene.glb", "report.html"})
+                                              "planes.csv", "scene.glb", "scene.usda", "report.html"})
         self.assertEqual([p.name for p in self.folder.iterdir() if p.name not in ("out", "room.ply")], [])
 
         result = json.loads((out / "result.json").read_text())
@@ -64,7 +64,8 @@ class Planes(CliTest):
         run = self.unseen("planes", self.room_file(), "-o", "out", "--no-points", "--no-report")
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(set(contents(self.folder / "out")),
-                         {"result.json", "planes.ply", "planes.obj", "planes.mtl", "scene.glb"})
+                         {"result.json", "planes.ply", "planes.obj", "planes.mtl", "planes.csv", "scene.glb",
+                          "scene.usda"})
 
     def test_second_run_replaces_the_first(self):
         self.room_file()
@@ -112,6 +113,7 @@ class Planes(CliTest):
         self.assertEqual(result["dimensions"], 2)
         self.assertEqual(len(result["planes"]), 2)
         self.assertTrue(all(len(plane["segment"]) == 2 for plane in result["planes"]))
+        self.assertLess({"drawing.dxf", "drawing.svg"}, set(contents(self.folder / "out")))
 
     def test_infeasible_is_written_and_says_so(self):
         write_ply(self.folder / "dust.ply", numpy.random.default_rng(3).uniform(0, 1, (60, 3)))

@@ -113,13 +113,14 @@ TEST(PlanesPly, HeaderCountsWhatFollows) {
   EXPECT_EQ(lines_starting(text, "3 "), 16u);
   const std::string drawing = planes_ply(sample_drawing());
   EXPECT_NE(drawing.find("element edge 2\n"), std::string::npos);
-  EXPECT_EQ(drawing.substr(drawing.find("end_header\n") + 11).substr(0, 9), "0.5 -1 0\n");
+  EXPECT_EQ(drawing.substr(drawing.find("end_header\n") + 11).substr(0, 19), "0.5 -1 0 0 114 178\n");
 }
 
 TEST(PlanesObj, OneGroupAPlaneOneMaterialAFrame) {
   const std::string text = planes_obj(sample_room(), "planes.mtl");
   EXPECT_EQ(lines_starting(text, "g plane_"), 5u);
   EXPECT_EQ(lines_starting(text, "g plane_0_floor"), 1u);
+  EXPECT_EQ(lines_starting(text, "o plane_0_floor"), 1u);
   EXPECT_EQ(lines_starting(text, "usemtl frame_0"), 4u);
   EXPECT_EQ(lines_starting(text, "f "), 16u);
   EXPECT_EQ(lines_starting(planes_mtl(sample_room()), "newmtl frame_"), 2u);
