@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-// Bundles src/ into one self-contained page, dist/page.html. The same sources give the same bytes.
+// Bundles src/ into one self-contained page, dist/page.html. The same sources give the same bytes;
+// with --check it writes nothing and fails if the page on disk differs.
 import { readFile, mkdir, writeFile } from 'node:fs/promises';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
@@ -28,6 +29,11 @@ const template = await readFile(here('src/page.html'), 'utf8');
 const page = template.replace('/*unseen:style*/', () => css).replace('/*unseen:script*/', () => js);
 for (const mark of ['<!--unseen:title-->', '<!--unseen:scenes-->']) {
   if (page.split(mark).length !== 2) throw new Error(`${mark} must stand in the page exactly once`);
+}
+if (process.argv.includes('--check')) {
+  const committed = await readFile(here('dist/page.html'), 'utf8');
+  if (committed !== page) throw new Error('dist/page.html is not what the sources give: run "npm run build" and commit it');
+  process.exit(0);
 }
 await mkdir(here('dist'), { recursive: true });
 await writeFile(here('dist/page.html'), page);

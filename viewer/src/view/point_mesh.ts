@@ -35,8 +35,12 @@ void main() {
 #else
   vColor = texelFetch(uTable, cell(aLabel), 0).rgb;
 #endif
-  // Green: how far towards grey; blue: brightness by the direction of the plane.
-  vColor = mix(vColor, vec3(uAway), link.g) * (MODE == 2 ? 1.0 : link.b);
+#if LINKED && (MODE == 0 || MODE == 3)
+  // As planes are painted, so that points and planes of one colour look alike.
+  vColor = mix(vColor, vec3(1.0), 0.16);
+#endif
+  // Green: how far towards grey; alpha: how little towards white; blue: brightness by the direction of the plane.
+  vColor = mix(mix(vColor, vec3(uAway), link.g), vec3(1.0), 0.22 * (1.0 - link.a)) * (MODE == 2 ? 1.0 : link.b);
   gl_PointSize = uPointSize * uPixel * uThin;
 }`;
 
