@@ -141,6 +141,7 @@ export class PointsLayer extends Layer {
   update(look: Look) {
     this.look = look;
     const { model } = this.context;
+    this.mesh.material.uniforms.uStepBack!.value = this.color === kRelation ? 0 : 1;
     if (this.mesh.mode !== 3) return;
     const s = model.get(this.linkQuantity?.structure);
     const n = this.table.count;
