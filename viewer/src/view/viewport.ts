@@ -14,7 +14,7 @@ import { kOnTop, kPoints, SharedUniforms } from './shared';
 THREE.ColorManagement.enabled = false;
 
 const kBudget = 60; // ms for the points of one picture
-const kFewest = 100000; // points in it at least
+const kFewest = 100000; // points in it at least; a third of that while the view moves
 const kRest = 180; // ms without movement after which the other points follow
 const kManyPoints = 1000000; // from here on edges are not smoothed: it would cost too much in software
 const kHoverPoints = 120000;
@@ -135,7 +135,7 @@ export class Viewport {
     if (!this.aim()) return;
     const points = this.visiblePoints();
     const moving = performance.now() - this.movingSince < kRest;
-    const most = Math.max(kFewest, this.speed * kBudget);
+    const most = Math.max(moving ? kFewest / 3 : kFewest, this.speed * kBudget);
     this.shown = all || points <= most ? 1 : most / points;
     this.share(0, this.shown, moving);
     this.timed(points * this.shown, () => this.renderer.render(this.scene, this.view.camera));
