@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-// Bundles src/ into one self-contained page, dist/page.html or the file given. The same sources give the same bytes.
+// Bundles src/ into one self-contained page, dist/page.html. The same sources give the same bytes;
+// with --check it writes nothing and fails if the page on disk differs.
 import { readFile, mkdir, writeFile } from 'node:fs/promises';
-import { dirname } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { build } from 'esbuild';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const out = process.argv[2] ?? here('dist/page.html');
 const common = { bundle: true, write: false, minify: true, legalComments: 'none', charset: 'utf8', absWorkingDir: here('.') };
 
 const script = await build({
@@ -31,7 +30,11 @@ const page = template.replace('/*unseen:style*/', () => css).replace('/*unseen:s
 for (const mark of ['<!--unseen:title-->', '<!--unseen:scenes-->']) {
   if (page.split(mark).length !== 2) throw new Error(`${mark} must stand in the page exactly once`);
 }
-
-await mkdir(dirname(out), { recursive: true });
-await writeFile(out, page);
-console.log(`${out}: ${(Buffer.byteLength(page) / 1024).toFixed(0)} kB`);
+if (process.argv.includes('--check')) {
+  const committed = await readFile(here('dist/page.html'), 'utf8');
+  if (committed !== page) throw new Error('dist/page.html is not what the sources give: run "npm run build" and commit it');
+  process.exit(0);
+}
+await mkdir(here('dist'), { recursive: true });
+await writeFile(here('dist/page.html'), page);
+console.log(`dist/page.html: ${(Buffer.byteLength(page) / 1024).toFixed(0)} kB`);

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "report/planes_structures.h"
 #include "unseen/core/version.h"
@@ -45,15 +47,51 @@ void add_table(SceneBuilder& scene, const Arrangement& a) {
        {"rows", std::move(rows)}});
 }
 
+/// "1 704 875", with narrow no-break spaces.
+std::string grouped(std::size_t number) {
+  std::string text = std::to_string(number);
+  for (std::ptrdiff_t at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) text.insert(static_cast<std::size_t>(at), "\u202f");
+  return text;
+}
+
 Json facts_of(const Arrangement& a) {
   const std::size_t points = count_of(a.summary, "points"), assigned = count_of(a.summary, "assigned");
   const auto fact = [](std::string_view name, std::string value) { return Json{{"name", name}, {"value", std::move(value)}}; };
   const std::string things = a.two_dimensional ? "lines" : "planes";
   return {fact(things, std::to_string(a.planes.size())), fact("orientation frames", std::to_string(a.frames.size())),
           fact("directions", std::to_string(a.directions.size())), fact("relations", std::to_string(a.relations.size())),
-          fact("related pairs of " + things, std::to_string(a.plane_relations)), fact("points", std::to_string(points)),
+          fact("related pairs of " + things, grouped(a.plane_relations)), fact("points", grouped(points)),
           fact("points explained", points > 0 ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(assigned) / static_cast<double>(points)) : "–"),
           fact("scale", fmt::format("{:.4g} m", a.scale))};
+}
+
+/// The box that all but half a percent of the points on planes lie in, along each axis and at each end.
+std::optional<Json> focus_of(const OrderedPoints& points, const Vec3& offset) {
+  const std::size_t first = points.first.front(), count = points.positions.size() - first;
+  if (count < 1000) return std::nullopt;
+  const std::size_t left_out = count / 200;
+  Vec3 low, high;
+  std::vector<double> values(count);
+  for (int a = 0; a < 3; ++a) {
+    for (std::size_t i = 0; i < count; ++i) values[i] = points.positions[first + i][a] - offset[a];
+    const auto end = [&](std::size_t rank) {
+      const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank);
+      std::nth_element(values.begin(), at, values.end());
+      return *at;
+    };
+    low[a] = end(left_out);
+    high[a] = end(count - 1 - left_out);
+  }
+  return Json{{"low", vector_of(low)}, {"high", vector_of(high)}};
+}
+
+/// Whether the scene is a room seen from inside; nothing if its tags do not tell.
+std::optional<bool> is_inside(const Arrangement& a) {
+  const auto has = [&](std::string_view tag) {
+    return std::any_of(a.planes.begin(), a.planes.end(), [&](const auto& plane) { return plane.tag == tag; });
+  };
+  if (!has("wall") && !has("floor")) return std::nullopt;
+  return has("floor") && has("ceiling");
 }
 
 }  // namespace
@@ -70,6 +108,8 @@ std::string planes_scene(const Arrangement& a, const InputRecord& input, const O
   header["command"] = command;
   header["version"] = kVersion;
   header["flat"] = a.two_dimensional;
+  if (const auto focus = focus_of(points, offset)) header["focus"] = *focus;
+  if (const auto inside = is_inside(a)) header["inside"] = *inside;
   header["facts"] = facts_of(a);
   header["summary"] = summary_of(a.summary);
   header["options"] = Json::array();

@@ -135,6 +135,12 @@ export class App {
     return box;
   }
 
+  get focus(): THREE.Box3 {
+    const box = new THREE.Box3();
+    for (const v of this.viewports) box.union(v.focus);
+    return box;
+  }
+
   setSection(axis: Axis | null, value?: number, flipped = this.section.flipped) {
     const box = this.box;
     if (axis && value === undefined) value = (box.min[axis] + box.max[axis]) / 2;

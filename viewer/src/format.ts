@@ -128,6 +128,8 @@ export interface Header {
   version?: string;
   offset?: number[];
   flat?: boolean;
+  focus?: { low: number[]; high: number[] };
+  inside?: boolean;
   facts?: { name: string; value: string }[];
   summary?: Summary;
   options?: OptionValue[];

@@ -55,7 +55,7 @@ async function start(root: HTMLElement): Promise<void> {
   app.rig.flat = app.scenes.some((v) => v.model) && app.scenes.every((v) => !v.model || v.model.header.flat === true);
   app.scenes.forEach((v, i) => addViewport(app, v, i));
   app.active = Math.max(0, app.scenes.findIndex((v) => v.model));
-  app.rig.setBounds(app.box);
+  app.rig.setBounds(app.focus);
   app.time = app.timeRange?.start ?? 0;
 
   const title = document.title || app.current.model?.header.title || 'unseen';

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // The smallest PNG writer: 8-bit RGB.
-import { crc32 as nodeCrc, deflateSync } from 'node:zlib';
+import { deflateSync } from 'node:zlib';
 
 const kTable = Array.from({ length: 256 }, (_, n) => {
   for (let k = 0; k < 8; ++k) n = n & 1 ? 0xedb88320 ^ (n >>> 1) : n >>> 1;
   return n >>> 0;
 });
-const crc = nodeCrc ?? ((data) => {
+const crc = (data) => {
   let c = 0xffffffff;
   for (const b of data) c = kTable[(c ^ b) & 255] ^ (c >>> 8);
   return (c ^ 0xffffffff) >>> 0;
-});
+};
 
 function chunk(name, data) {
   const out = Buffer.alloc(12 + data.length);

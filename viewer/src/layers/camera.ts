@@ -100,7 +100,7 @@ export class CameraLayer extends Layer {
     const depth = 0.5;
     const at = (x: number, y: number) => new THREE.Vector3(((x - pose.cx) / pose.fx) * depth, ((y - pose.cy) / pose.fy) * depth, depth).applyMatrix4(pose.matrix);
     const corners = [at(0, 0), at(pose.width, 0), at(pose.width, pose.height), at(0, pose.height)];
-    const mark = [at(pose.width * 0.4, -pose.height * 0.04), at(pose.width * 0.6, -pose.height * 0.04), at(pose.width * 0.5, -pose.height * 0.16)];
+    const mark = [at(pose.width * 0.44, -pose.height * 0.03), at(pose.width * 0.56, -pose.height * 0.03), at(pose.width * 0.5, -pose.height * 0.1)];
     const segments: number[] = [];
     const line = (a: THREE.Vector3, b: THREE.Vector3) => segments.push(a.x, a.y, a.z, b.x, b.y, b.z);
     corners.forEach((c, k) => { line(center, c); line(c, corners[(k + 1) % 4]!); });

@@ -15,7 +15,7 @@ const kFaded = 12;
 
 export class PlanesLayer extends Layer {
   readonly shell: Shell;
-  /** For points on these planes: red = share that is hidden, green = greyness, blue = light. */
+  /** For points on these planes: red = share that is hidden, green = greyness, blue = light, alpha = not highlighted. */
   readonly link: ElementTable;
   fading = true;
   private readonly count: number;
@@ -124,8 +124,8 @@ export class PlanesLayer extends Layer {
       const ink = strong ? (look.dark ? 255 : 15) : 0;
       const mix = strong ? 0 : 0.45;
       this.edge.set(p, c[0] * mix + ink, c[1] * mix + ink, c[2] * mix + ink, faded && !strong ? 60 : 235);
-      const light = Math.abs(0.30 * this.normals[3 * p]! + 0.62 * this.normals[3 * p + 1]! + 0.72 * this.normals[3 * p + 2]!);
-      this.link.set(p, faded ? 252 : 0, active && relation === undefined ? 200 : 0, Math.round(255 * (0.72 + 0.28 * light)), 255);
+      const light = Math.abs(0.2 * this.normals[3 * p]! + 0.55 * this.normals[3 * p + 1]! + 0.81 * this.normals[3 * p + 2]!);
+      this.link.set(p, faded ? 252 : 0, active && relation === undefined ? 200 : 0, Math.round(255 * (0.58 + 0.4 * light)), strong ? 0 : 255);
     }
     this.link.set(-1, 0, active ? 200 : 0, 240, 255);
     this.fill.commit();

@@ -8,7 +8,7 @@ import type { PointsStructure, Quantity } from '../format';
 import { labelColor, scalarColor } from '../palette';
 import { PointMesh, pointAt, spread } from '../view/point_mesh';
 import { ElementTable } from '../view/shared';
-import { choicesOf, colorsBy, dress, kRelation, rangeOf, relationColors } from './coloring';
+import { choicesOf, colorsBy, kRelation, rangeOf, relationColors } from './coloring';
 import { Layer, type ColorChoice, type Hit, type LayerContext, type Look, type View } from './layer';
 import { PlanesLayer } from './planes';
 
@@ -141,6 +141,7 @@ export class PointsLayer extends Layer {
   update(look: Look) {
     this.look = look;
     const { model } = this.context;
+    this.mesh.material.uniforms.uStepBack!.value = this.color === kRelation ? 0 : 1;
     if (this.mesh.mode !== 3) return;
     const s = model.get(this.linkQuantity?.structure);
     const n = this.table.count;
@@ -148,9 +149,7 @@ export class PointsLayer extends Layer {
     if (s && this.color === kRelation) color = relationColors(model, s.id, look);
     else if (s && this.color.startsWith('@')) color = colorsBy(model, model.quantity(s, this.color.slice(1)), n, [110, 140, 170]);
     else if (s) color = labelColor;
-    const related = s && this.color !== kRelation ? look.relations.get(s.id) : undefined;
-    const hover = s && look.hover?.structure === s.id ? look.hover.index : -1;
-    for (let i = 0; i < n; ++i) this.table.set(i, ...dress(color(i), related?.get(i), false, i === hover, look.dark), 255);
+    for (let i = 0; i < n; ++i) this.table.set(i, ...color(i), 255);
     this.table.set(-1, ...(s ? labelColor(-1) : color(0)), 255);
     this.table.commit();
   }

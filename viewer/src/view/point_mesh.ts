@@ -9,7 +9,7 @@ const kVertex = /* glsl */ `
 precision highp sampler2D;
 in float aValue; in float aLabel; in vec3 aColor;
 // MODE 0: label of the value, 1: scalar, 2: own colour, 3: label of the linked element
-uniform float uPointSize, uPixel, uScale, uShift, uThin, uAway;
+uniform float uPointSize, uPixel, uScale, uShift, uThin, uAway, uStepBack;
 uniform sampler2D uTable, uLink, uRamp;
 out vec3 vColor;
 ${kClip}
@@ -35,8 +35,12 @@ void main() {
 #else
   vColor = texelFetch(uTable, cell(aLabel), 0).rgb;
 #endif
-  // Green: how far towards grey; blue: brightness by the direction of the plane.
-  vColor = mix(vColor, vec3(uAway), link.g) * (MODE == 2 ? 1.0 : link.b);
+#if LINKED && (MODE == 0 || MODE == 3)
+  // As planes are painted, so that points and planes of one colour look alike.
+  vColor = mix(vColor, vec3(1.0), 0.16);
+#endif
+  // Green: how far towards grey; alpha: how little towards white; blue: brightness by the direction of the plane.
+  vColor = mix(mix(vColor, vec3(uAway), link.g * uStepBack), vec3(1.0), 0.22 * (1.0 - link.a)) * (MODE == 1 || MODE == 2 ? 1.0 : link.b);
   gl_PointSize = uPointSize * uPixel * uThin;
 }`;
 
@@ -107,6 +111,7 @@ export class PointMesh {
         ...shared.all(),
         uPointSize: { value: 2 },
         uThin: { value: 1 },
+        uStepBack: { value: 1 },
         uScale: { value: 1 },
         uShift: { value: 0 },
         uTable: { value: link.texture },

@@ -33,8 +33,8 @@ void main() {
   vec3 ray = uOrtho > 0.5 ? uForward : normalize(vWorld - uEye);
   float facing = abs(dot(n, ray));
   // A light from above and one from the side, so that walls of one colour stay apart.
-  float light = 0.64 + 0.10 * facing + 0.28 * abs(dot(n, vec3(0.30, 0.62, 0.72)));
-  color = vec4(vColor.rgb * light, alpha);
+  float light = 0.54 + 0.08 * facing + 0.40 * abs(dot(n, vec3(0.20, 0.55, 0.81)));
+  color = vec4(mix(vColor.rgb, vec3(1.0), 0.16) * light, alpha);
 }`;
 
 export class TriMesh {

@@ -14,7 +14,7 @@ import { kOnTop, kPoints, SharedUniforms } from './shared';
 THREE.ColorManagement.enabled = false;
 
 const kBudget = 60; // ms for the points of one picture
-const kFewest = 100000; // points in it at least
+const kFewest = 100000; // points in it at least; a third of that while the view moves
 const kRest = 180; // ms without movement after which the other points follow
 const kManyPoints = 1000000; // from here on edges are not smoothed: it would cost too much in software
 const kHoverPoints = 120000;
@@ -135,7 +135,7 @@ export class Viewport {
     if (!this.aim()) return;
     const points = this.visiblePoints();
     const moving = performance.now() - this.movingSince < kRest;
-    const most = Math.max(kFewest, this.speed * kBudget);
+    const most = Math.max(moving ? kFewest / 3 : kFewest, this.speed * kBudget);
     this.shown = all || points <= most ? 1 : most / points;
     this.share(0, this.shown, moving);
     this.timed(points * this.shown, () => this.renderer.render(this.scene, this.view.camera));
@@ -246,8 +246,15 @@ export class Viewport {
     this.invalidate();
   }
 
-  /** Whether fading shows more than it takes: something lies inside. */
+  /** What the view fits to. */
+  get focus(): THREE.Box3 {
+    const focus = this.model.header.focus;
+    return focus ? new THREE.Box3(new THREE.Vector3(...focus.low), new THREE.Vector3(...focus.high)) : this.bounds;
+  }
+
+  /** Whether fading shows more than it takes: the scene is one seen from inside. */
   get fadingHelps(): boolean {
+    if (this.model.header.inside !== undefined) return this.model.header.inside;
     for (const l of this.layers.values()) if (l instanceof PlanesLayer && l.shell.inside > 0.06) return true;
     return false;
   }
