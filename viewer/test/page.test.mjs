@@ -236,8 +236,13 @@ test('without WebGL the tables are there', async () => {
   await close();
 });
 
-test('the picture can be exported', async () => {
+test('the picture can be exported and copied', async () => {
   const { page, close } = await open(browser, 'export', room);
+  await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
+  await page.getByRole('button', { name: /Copy the picture/ }).click();
+  await page.locator('[aria-live]', { hasText: 'Picture copied' }).waitFor();
+  const size = await page.evaluate(async () => (await (await navigator.clipboard.read())[0].getType('image/png')).size);
+  assert.ok(size > 5000, `${size} bytes`);
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: /Export the picture/ }).click()]);
   assert.match(download.suggestedFilename(), /\.png$/);
   await close();
