@@ -50,18 +50,12 @@ struct Streamed {
   std::optional<report::PointsFile> points;
 };
 
-std::size_t count_of(const Summary& summary, const std::string& name) {
-  for (const auto& [key, value] : summary.counts)
-    if (key == name) return value;
-  return 0;
-}
-
 std::string plural(std::size_t count, const std::string& one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
 void print_summary(const planes::Arrangement& a, const Arguments& args, bool drawing_expected) {
-  const std::size_t points = count_of(a.summary, "points"), assigned = count_of(a.summary, "assigned");
+  const std::size_t points = report::count_of(a.summary, "points"), assigned = report::count_of(a.summary, "assigned");
   const bool estimated = !args.options.scale && !args.options.relative_scale;
   const std::string thing = a.two_dimensional ? "line" : "plane";
   const double share =

@@ -54,12 +54,11 @@ class Search {
       const std::vector<double> opening = openings(open);
       double best = -1e-8;
       int add = -1, drop = -1;
-      std::vector<std::pair<double, int>> additions = ranked_additions(open, now, opening);
+      const std::vector<std::pair<double, int>> additions = ranked_additions(open, now, opening);
       if (!additions.empty() && additions.front().first < best) {
         best = additions.front().first;
         add = additions.front().second;
       }
-      if (additions.size() > kSwaps) additions.resize(kSwaps);
       for (const int o : open) {
         if (p_.fixed[o] || open.size() == 1) continue;
         std::vector<double> left = now.cost;
@@ -211,7 +210,7 @@ class Search {
     return sum;
   }
 
-  /// Change of data and irregularity by each closed frame, the best first.
+  /// Change of data and irregularity by each closed frame, the best kSwaps, best first.
   std::vector<std::pair<double, int>> ranked_additions(const std::vector<int>& open, const Best& now,
                                                        const std::vector<double>& opening) const {
     std::vector<char> is_open(p_.frames(), 0);

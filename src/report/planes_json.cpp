@@ -38,6 +38,12 @@ Json plane_of(const planes::ArrangedPlane& p, std::size_t id, bool two_dimension
 
 }  // namespace
 
+std::size_t count_of(const Summary& summary, std::string_view name) {
+  for (const auto& [key, value] : summary.counts)
+    if (key == name) return value;
+  return 0;
+}
+
 std::string summary_json(const Summary& summary) {
   return text_of(summary_of(summary));
 }

@@ -16,12 +16,6 @@ namespace {
 
 using planes::Arrangement;
 
-std::size_t count_of(const Summary& summary, std::string_view name) {
-  for (const auto& [key, value] : summary.counts)
-    if (key == name) return value;
-  return 0;
-}
-
 Json column(std::string_view name, std::string_view unit = "", int digits = -1) {
   Json json = {{"name", name}, {"unit", unit}};
   if (digits >= 0) json["digits"] = digits;

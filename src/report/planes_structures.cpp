@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -15,20 +14,13 @@ namespace {
 
 using planes::Arrangement;
 
-/// Plane fitted freely to points: what the data alone say.
+/// Plane fitted freely to points: what the data alone say; `fallback` where they say little or something else.
 Plane free_fit(std::span<const Vec3> points, const Plane& fallback, bool flat) {
   if (points.size() < 8) return fallback;
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : points) mean += p;
-  mean /= static_cast<double>(points.size());
-  Mat3 scatter = Mat3::Zero();
-  for (const Vec3& p : points) scatter += (p - mean) * (p - mean).transpose();
-  if (flat) scatter(2, 2) = 2.0 * scatter.trace() + 1.0;  // the normal of a line lies in the drawing
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
-  Vec3 normal = eigen.eigenvectors().col(0);
-  if (normal.dot(fallback.normal) < 0) normal = -normal;
-  if (normal.dot(fallback.normal) < 0.5) return fallback;
-  return {normal, normal.dot(mean)};
+  const Plane fit = fitted_plane(points, flat);
+  const double cosine = fit.normal.dot(fallback.normal);
+  if (std::abs(cosine) < 0.5) return fallback;
+  return cosine > 0 ? fit : Plane{-fit.normal, -fit.offset};
 }
 
 /// Where a vertex of a plane lies on another one, along the plane's own normal.

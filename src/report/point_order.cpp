@@ -55,22 +55,25 @@ OrderedPoints ordered(const PointSample& sample, std::size_t plane_count) {
   return points;
 }
 
+Plane fitted_plane(std::span<const Vec3> points, bool flat) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : points) mean += p;
+  mean /= static_cast<double>(points.size());
+  Mat3 scatter = Mat3::Zero();
+  for (const Vec3& p : points) scatter += (p - mean) * (p - mean).transpose();
+  if (flat) scatter(2, 2) = 2.0 * scatter.trace() + 1.0;  // beyond the others: the last axis, not the normal
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
+  const Vec3 normal = eigen.eigenvectors().col(0);
+  return {normal, normal.dot(mean)};
+}
+
 std::vector<Vec3> local_normals(const OrderedPoints& points, bool flat) {
   std::vector<Vec3> normals;
   const std::size_t n = points.positions.size();
   const std::size_t step = std::max(kGroup, n / kGroups);
   for (std::size_t first = 0; first + kGroup <= n; first += step) {
     if (points.plane[first] != points.plane[first + kGroup - 1]) continue;
-    Vec3 mean = Vec3::Zero();
-    for (std::size_t i = 0; i < kGroup; ++i) mean += points.positions[first + i] / static_cast<double>(kGroup);
-    Mat3 scatter = Mat3::Zero();
-    for (std::size_t i = 0; i < kGroup; ++i) {
-      const Vec3 d = points.positions[first + i] - mean;
-      scatter += d * d.transpose();
-    }
-    if (flat) scatter(2, 2) = 2.0 * scatter.trace() + 1.0;  // the normal of a line lies in the drawing
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
-    normals.push_back(eigen.eigenvectors().col(0));
+    normals.push_back(fitted_plane(std::span(points.positions).subspan(first, kGroup), flat).normal);
   }
   return normals;
 }

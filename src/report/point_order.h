@@ -21,6 +21,9 @@ struct OrderedPoints {
 
 OrderedPoints ordered(const PointSample& sample, std::size_t plane_count);
 
+/// Least-squares plane through points; in a drawing (`flat`) its normal is orthogonal to z. Its sign is arbitrary.
+Plane fitted_plane(std::span<const Vec3> points, bool flat);
+
 /// Normals of some thousand small groups of neighbouring points: what the input says of orientations, before
 /// anything is made regular.
 std::vector<Vec3> local_normals(const OrderedPoints& points, bool flat);

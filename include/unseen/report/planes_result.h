@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct StoredRun {
 
 /// Reads that part of a result.json of any capability. Throws InputError naming file and field.
 StoredRun read_stored_run(const std::filesystem::path& path);
+
+/// A count of the summary by its name, 0 if there is none.
+std::size_t count_of(const Summary& summary, std::string_view name);
 
 /// The summary as one JSON object, as it stands in result.json: status, seconds, energy, counts, warnings.
 std::string summary_json(const Summary& summary);
