@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "unseen/core/options.h"
+
+namespace unseen::cuboids {
+
+/// Everything that `complete_cuboids` can be told. The defaults are meant to work.
+struct Options {
+  double friction = 0.7;           ///< μ
+  double density = 300.0;          ///< kg/m³, where the frame names none
+  double noise = 0.0015;           ///< σ of the depth at 1 m, m; grows with the square of the depth
+  std::optional<double> gap;       ///< m, between parts of one object; unset = from noise and pixel spacing
+  double fill = 0.7;               ///< share of filled voxels in a slab
+  double stable_residual = 0.05;   ///< an arrangement with a smaller residual stands
+  bool image_edges = true;         ///< pull visible box edges to edges of the colour image
+  double time_limit = 10.0;        ///< s, for the search; what is best then is kept
+  int seed = 1;
+};
+
+/// The one description of these options; the table points into `options`.
+OptionTable describe(Options& options);
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "unseen/core/geometry.h"
+#include "unseen/core/summary.h"
+
+namespace unseen::cuboids {
+
+enum class SupportKind { ground, desk, wall, ceiling };
+inline constexpr const char* kSupportKinds[] = {"ground", "desk", "wall", "ceiling"};
+
+/// A static body of infinite mass that fills the half space behind its plane.
+struct Support {
+  int id = -1;  ///< unique over supports and cuboids together
+  SupportKind kind = SupportKind::ground;
+  Plane plane;                ///< world; the normal points to the side where things are
+  std::vector<Vec3> outline;  ///< convex outline of what was seen of it, counter-clockwise; empty = without end
+};
+
+/// A box of the scene.
+struct Cuboid {
+  int id = -1;
+  OrientedBox box;      ///< completed
+  OrientedBox initial;  ///< as fitted to what was seen
+  std::size_t visible_points = 0;
+  double density = 300.0;  ///< kg/m³
+  std::string label;       ///< of the mask or stroke it came from, or empty
+  bool by_symmetry = false;  ///< wholly unseen, completed by symmetry (thesis Section 4.4.1)
+
+  double mass() const { return density * box.volume(); }
+};
+
+enum class ContactKind { touching, fixed };
+inline constexpr const char* kContactKinds[] = {"touching", "fixed"};
+
+/// How two bodies meet. `a` and `b` are ids of supports or cuboids; a is the support, if one is.
+struct Contact {
+  int a = -1, b = -1;
+  ContactKind kind = ContactKind::touching;
+  Vec3 direction = Vec3::UnitZ();  ///< unit, from a to b
+  std::vector<Vec3> points;        ///< 1, 2 or 4 points of the interface (touching)
+  std::vector<Vec3> forces;        ///< N, on b, one a point; empty if fixed
+};
+
+/// How surely it stands.
+struct Stability {
+  double residual = 0;         ///< largest over bodies of |force|/weight and |torque|/(weight · half size)
+  bool stable = false;
+  double margin = 0;           ///< largest horizontal acceleration that it bears, in g, worst of 16 directions
+  double friction_needed = 0;  ///< smallest μ with which it still stands
+};
+
+struct SearchReport {
+  std::size_t nodes = 0, pruned = 0;
+  bool optimal = false;
+};
+
+/// A scene in static equilibrium. World coordinates: z up, z = 0 on the ground support, the origin below the camera.
+struct Completion {
+  RigidTransform T_world_camera;
+  std::vector<Support> supports;
+  std::vector<Cuboid> cuboids;
+  std::vector<Contact> contacts;
+  Stability stability;
+  int fixed_contacts = 0;
+  double extended_volume = 0;    ///< m³
+  std::vector<int> unsupported;  ///< ids of cuboids that nothing can support
+  SearchReport search;
+  Summary summary;
+};
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/cuboids/options.h"
+
+#include <limits>
+
+namespace unseen::cuboids {
+
+OptionTable describe(Options& o) {
+  constexpr double kTiny = std::numeric_limits<double>::min();
+  OptionTable t;
+  t.add({"friction", &o.friction, "1", "friction coefficient of all contacts", 0.0, 10.0, {}});
+  t.add({"density", &o.density, "kg/m³", "density of what the frame names none for", kTiny, 1e5, {}});
+  t.add({"noise", &o.noise, "m", "standard deviation of the depth at 1 m; it grows with the square of the depth", kTiny, 0.1, {}});
+  t.add({"gap", &o.gap, "m", "parts of one object are at most this far apart (default: from noise and pixel spacing)", kTiny, 1.0, {}});
+  t.add({"fill", &o.fill, "1", "share of a box that must be surface or hidden", 0.1, 1.0, {}});
+  t.add({"stable_residual", &o.stable_residual, "1", "an arrangement with a smaller residual stands", 1e-9, 1.0, {}});
+  t.add({"image_edges", &o.image_edges, "", "pull visible box edges to edges of the colour image", 0, 1, {}});
+  t.add({"time_limit", &o.time_limit, "s", "for the search; the best arrangement found by then is kept", 0.01, 3600.0, {}});
+  t.add({"seed", &o.seed, "", "of random choices", 0, 2147483647, {}});
+  return t;
+}
+
+}  // namespace unseen::cuboids
