@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <vector>
+
 #include "unseen/core/context.h"
 #include "unseen/core/rgbd_frame.h"
 #include "unseen/cuboids/options.h"
@@ -17,5 +19,9 @@ namespace unseen::cuboids {
 /// summary.status is infeasible if there is no object, time_limit if the search was cut short, cancelled if the
 /// context's stop was requested.
 Completion complete_cuboids(const RgbdFrame& frame, const Options& options, Context& context);
+
+/// The same for boxes and supports that are known: `scene` gives T_world_camera, supports and cuboids with their
+/// `initial` boxes; the frame only says which space is free.
+Completion complete_cuboids(const RgbdFrame& frame, const Completion& scene, const Options& options, Context& context);
 
 }  // namespace unseen::cuboids

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "cuboids/problem.h"
+
+namespace unseen::cuboids {
+
+/// A rigid motion of a body: velocity of the world's origin, and angular velocity.
+struct Twist {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+  Vec3 at(const Vec3& p) const { return linear + angular.cross(p); }
+  bool is_zero() const { return linear.isZero(0.0) && angular.isZero(0.0); }
+};
+
+/// A way in which an arrangement collapses: gravity does work, and no contact resists. It proves the same of every
+/// other arrangement that does not resist it either.
+struct Collapse {
+  std::vector<Twist> motion;  ///< a body; zero for those that stay
+};
+
+/// Smallest residual that the collapse proves for an arrangement; 0 if some contact resists it.
+double proven_residual(const Collapse& collapse, const Problem& problem, const Arrangement& arrangement,
+                       const std::vector<Touch>& touches, const std::vector<char>& held);
+
+/// Collapses of an unstable arrangement from the unbalanced rest of its best balance, as small as can be: single
+/// bodies and groups that move by themselves where these suffice. None if numbers are too close to call.
+std::vector<Collapse> collapses_of(const Balance& balance, const Structure& structure, const Problem& problem,
+                                   const Arrangement& arrangement, const std::vector<Touch>& touches,
+                                   const std::vector<char>& held);
+
+/// Hypotheses of which at least one must hold in every arrangement, beyond those chosen, that the collapse does not rule
+/// out. `largest` has every face moved as far as any hypothesis asks.
+std::vector<int> remedies(const Collapse& collapse, const Problem& problem, const Arrangement& arrangement,
+                          const Arrangement& largest, const std::vector<char>& held);
+
+}  // namespace unseen::cuboids

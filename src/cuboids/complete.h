@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "cuboids/depth_view.h"
+#include "cuboids/problem.h"
+#include "cuboids/search.h"
+#include "unseen/core/context.h"
+#include "unseen/cuboids/options.h"
+#include "unseen/cuboids/types.h"
+
+namespace unseen::cuboids {
+
+/// Joins visible parts that an occluder has split: boxes in line whose seen faces lie in common planes, with hidden space
+/// between them. `tolerance` (m, a cuboid) shrinks along. Returns how many were joined to others.
+std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);
+
+/// m: how near two faces must be to count as touching, by the noise of the depth there.
+std::vector<double> contact_tolerance(const DepthView& view, const std::vector<Cuboid>& cuboids);
+
+/// Moves faces so that what touches touches exactly: hidden faces freely, seen ones as little as possible.
+void close_contacts(const Problem& problem, const std::vector<Touch>& touches, Arrangement& arrangement);
+
+/// Lowers the residual by small moves of faces: hidden ones within their rooms, seen ones within noise (Eq. 4.4).
+void lower_residual(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cuboids/complete.h"
+#include "cuboids/hypotheses.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kSameYaw = 10.0;  // deg: what two visible parts of one box may differ by
+
+constexpr double kToleranceSigmas = 5.0;
+constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
+
+struct Span {
+  double low, high;
+};
+Span span_along(const OrientedBox& box, const Vec3& axis) {
+  const double middle = axis.dot(box.center), half = (box.axes.transpose() * axis).cwiseAbs().dot(box.half_size);
+  return {middle - half, middle + half};
+}
+
+OrientedBox box_of(const Mat3& axes, const std::array<Span, 3>& spans) {
+  OrientedBox box;
+  box.axes = axes;
+  for (int k = 0; k < 3; ++k) {
+    box.half_size[k] = 0.5 * (spans[k].high - spans[k].low);
+    box.center += 0.5 * (spans[k].high + spans[k].low) * axes.col(k);
+  }
+  return box;
+}
+
+/// Axes of `b` in the order and with the signs that bring them nearest to those of `a`; none if they differ too much.
+std::optional<Mat3> aligned_axes(const OrientedBox& a, const OrientedBox& b) {
+  Mat3 out;
+  for (int k = 0; k < 3; ++k) {
+    int nearest = 0;
+    (b.axes.transpose() * a.axes.col(k)).cwiseAbs().maxCoeff(&nearest);
+    const Vec3 axis = b.axes.col(nearest);
+    if (line_angle(axis, a.axes.col(k)) > radians(kSameYaw)) return std::nullopt;
+    out.col(k) = axis.dot(a.axes.col(k)) < 0.0 ? Vec3(-axis) : axis;
+  }
+  return out;
+}
+
+/// The box of which both are visible parts; none if they are not: their seen faces must lie in common planes along two
+/// axes, they are apart along the third, and what lies between them is hidden.
+std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
+  const bool same_object = !a.label.empty() && a.label == b.label;
+  if (!same_object && a.label != b.label) return std::nullopt;
+  const auto axes_b = aligned_axes(a.initial, b.initial);
+  if (!axes_b) return std::nullopt;
+  const double share = static_cast<double>(a.visible_points) / static_cast<double>(a.visible_points + b.visible_points);
+  Mat3 axes = share * a.initial.axes + (1.0 - share) * *axes_b;
+  axes.col(2).normalize();
+  axes.col(0) = (axes.col(0) - axes.col(0).dot(axes.col(2)) * axes.col(2)).normalized();
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  std::array<Span, 3> spans;
+  int apart = -1;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = axes.col(k);
+    const Span first = span_along(a.initial, axis), second = span_along(b.initial, axis);
+    spans[k] = {std::min(first.low, second.low), std::max(first.high, second.high)};
+    if (std::max(first.low, second.low) > std::min(first.high, second.high) - tolerance) {
+      if (apart >= 0) return std::nullopt;
+      apart = k;
+      continue;
+    }
+    // The face that looks to the camera was seen of both.
+    const bool high_seen = axis.dot(view.viewpoint() - a.initial.center) > 0.0;
+    const double difference = high_seen ? first.high - second.high : first.low - second.low;
+    if (std::abs(difference) > 2.0 * tolerance) return std::nullopt;
+  }
+  if (apart < 0) return std::nullopt;
+  const OrientedBox whole = box_of(axes, spans);
+  return in_hidden_space(view, a.initial, whole, tolerance) ? std::optional(whole) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<double> contact_tolerance(const DepthView& view, const std::vector<Cuboid>& cuboids) {
+  std::vector<double> out;
+  for (const Cuboid& cuboid : cuboids) {
+    const double sigma = view.sigma(cuboid.initial.center);
+    out.push_back(std::clamp(kToleranceSigmas * sigma, kLeastTolerance, kLargestTolerance));
+  }
+  return out;
+}
+
+std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance) {
+  std::size_t fused = 0;
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = 0; i < cuboids.size() && !again; ++i)
+      for (std::size_t j = i + 1; j < cuboids.size() && !again; ++j) {
+        const double within = std::max(tolerance[i], tolerance[j]);
+        const auto whole = joined(view, cuboids[i], cuboids[j], within);
+        if (!whole) continue;
+        const bool blocked = std::any_of(cuboids.begin(), cuboids.end(), [&](const Cuboid& other) {
+          if (&other == &cuboids[i] || &other == &cuboids[j]) return false;
+          const auto meet = interface_of(solid_of(*whole), solid_of(other.initial), 0.0);
+          return meet && -meet->gap > within;
+        });
+        if (blocked) continue;
+        cuboids[i].initial = cuboids[i].box = *whole;
+        cuboids[i].visible_points += cuboids[j].visible_points;
+        cuboids.erase(cuboids.begin() + static_cast<std::ptrdiff_t>(j));
+        tolerance.erase(tolerance.begin() + static_cast<std::ptrdiff_t>(j));
+        ++fused;
+        again = true;
+      }
+  }
+  return fused;
+}
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cuboids/depth_view.h"
+#include "cuboids/problem.h"
+
+namespace unseen::cuboids {
+
+/// m: how far each face of each cuboid may move outward before it enters space that the view proves free.
+using Rooms = std::vector<Extension>;
+Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
+                 double farthest);
+
+/// m: how far a face must move outward until the box meets a body; none if it never does. 0 if they meet already.
+std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other);
+std::optional<double> reach(const OrientedBox& box, int face, const Support& other);
+
+/// Contacts that pairs of bodies may have through hidden space (design page, step 5; thesis Fig. 4.7). Touching: a
+/// face moves until it meets the other body; or the lower body grows sideways under the upper one, or the upper one
+/// sideways over the lower one, to where it just bears, to the centre of mass, or to the far end. Fixed: the same with
+/// the least single move. Pairs that touch already need no hypothesis to touch, only one to be fixed.
+std::vector<Hypothesis> propose_contacts(const Problem& problem, const Rooms& rooms);
+
+/// True if no extended part of the arrangement lies in space that the view proves free.
+bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin);
+
+}  // namespace unseen::cuboids

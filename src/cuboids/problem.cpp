@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/problem.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s²
+
+double radius(const OrientedBox& box) { return box.half_size.norm(); }
+
+/// How far two bodies overlap, m; 0 if they don't.
+double overlap(const Problem& problem, const std::vector<ConvexSolid>& solids, int a, int b) {
+  const ConvexSolid& second = solids[b - problem.supports_count()];
+  const auto meet = problem.is_support(a) ? interface_of(problem.supports[a], second, 0.0)
+                                          : interface_of(solids[a - problem.supports_count()], second, 0.0);
+  return meet ? std::max(0.0, -meet->gap) : 0.0;
+}
+
+bool may_meet(const Problem& problem, const Arrangement& arrangement, int a, int b, double tolerance) {
+  const OrientedBox& second = arrangement.boxes[b - problem.supports_count()];
+  if (problem.is_support(a))
+    return problem.supports[a].plane.signed_distance(second.center) < radius(second) + tolerance;
+  const OrientedBox& first = arrangement.boxes[a - problem.supports_count()];
+  const double reach = radius(first) + radius(second) + tolerance;
+  return (first.center - second.center).squaredNorm() < reach * reach;
+}
+
+}  // namespace
+
+Vec3 face_normal(const OrientedBox& box, int face) {
+  const Vec3 axis = box.axes.col(face / 2);
+  return face % 2 == 0 ? Vec3(-axis) : axis;
+}
+
+OrientedBox extended(const OrientedBox& box, const Extension& extension) {
+  OrientedBox out = box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = extension[2 * axis], high = extension[2 * axis + 1];
+    out.half_size[axis] += 0.5 * (low + high);
+    out.center += 0.5 * (high - low) * box.axes.col(axis);
+  }
+  return out;
+}
+
+double Problem::pair_tolerance(int a, int b) const {
+  const double second = tolerance[b - supports_count()];
+  return is_support(a) ? second : std::max(tolerance[a - supports_count()], second);
+}
+
+Arrangement arrange(const Problem& problem, const std::vector<int>& chosen) {
+  Arrangement out;
+  out.extension.assign(problem.cuboids.size(), Extension{});
+  for (const int h : chosen) {
+    const Hypothesis& hypothesis = problem.hypotheses[h];
+    for (const FaceMove& move : hypothesis.moves) {
+      double& length = out.extension[move.body - problem.supports_count()][move.face];
+      length = std::max(length, move.length);
+    }
+    if (hypothesis.kind == ContactKind::fixed) out.fixed.push_back({hypothesis.a, hypothesis.b});
+  }
+  for (std::size_t i = 0; i < problem.cuboids.size(); ++i) {
+    out.boxes.push_back(extended(problem.cuboids[i].initial, out.extension[i]));
+    out.solids.push_back(solid_of(out.boxes.back()));
+    out.extended_volume += out.boxes.back().volume() - problem.cuboids[i].initial.volume();
+  }
+  std::sort(out.fixed.begin(), out.fixed.end());
+  return out;
+}
+
+double added_volume(const Problem& problem, const Arrangement& arrangement, const Hypothesis& hypothesis) {
+  double added = 0.0;
+  for (std::size_t m = 0; m < hypothesis.moves.size(); ++m) {
+    const int body = hypothesis.moves[m].body;
+    const auto is_body = [&](const FaceMove& move) { return move.body == body; };
+    if (std::any_of(hypothesis.moves.begin(), hypothesis.moves.begin() + m, is_body)) continue;
+    const int k = body - problem.supports_count();
+    Extension extension = arrangement.extension[k];
+    for (const FaceMove& move : hypothesis.moves)
+      if (is_body(move)) extension[move.face] = std::max(extension[move.face], move.length);
+    added += extended(problem.cuboids[k].initial, extension).volume() - arrangement.boxes[k].volume();
+  }
+  return added;
+}
+
+std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arrangement) {
+  std::vector<Touch> touches;
+  const int first_cuboid = problem.supports_count();
+  for (int a = 0; a < problem.bodies(); ++a)
+    for (int b = std::max(a + 1, first_cuboid); b < problem.bodies(); ++b) {
+      const double tolerance = problem.pair_tolerance(a, b);
+      if (!may_meet(problem, arrangement, a, b, tolerance)) continue;
+      const ConvexSolid& second = arrangement.solids[b - first_cuboid];
+      auto meet = problem.is_support(a) ? interface_of(problem.supports[a], second, tolerance)
+                                        : interface_of(arrangement.solids[a - first_cuboid], second, tolerance);
+      if (meet) touches.push_back({a, b, std::move(*meet)});
+    }
+  return touches;
+}
+
+bool penetrates(const Problem& problem, const Arrangement& arrangement) {
+  const int first_cuboid = problem.supports_count();
+  std::vector<ConvexSolid> initial(problem.cuboids.size());
+  for (int b = first_cuboid; b < problem.bodies(); ++b) {
+    const std::size_t i = b - first_cuboid;
+    for (int a = 0; a < b; ++a) {
+      const bool grown = arrangement.boxes[i].volume() > problem.cuboids[i].initial.volume() ||
+                         (!problem.is_support(a) && arrangement.boxes[a - first_cuboid].volume() > problem.cuboid(a).initial.volume());
+      if (!grown || !may_meet(problem, arrangement, a, b, 0.0)) continue;
+      const double now = overlap(problem, arrangement.solids, a, b);
+      if (now <= problem.pair_tolerance(a, b)) continue;
+      if (!problem.is_support(a)) initial[a - first_cuboid] = solid_of(problem.cuboid(a).initial);
+      initial[i] = solid_of(problem.cuboids[i].initial);
+      if (now > overlap(problem, initial, a, b) + 1e-9) return true;
+    }
+  }
+  return false;
+}
+
+Structure structure_of(const Problem& problem, const Arrangement& arrangement, const std::vector<Touch>& touches,
+                       const std::vector<char>& held) {
+  std::vector<Body> bodies(problem.bodies());
+  std::vector<int> parent(problem.bodies());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i];
+    return i;
+  };
+  for (int i = 0; i < problem.bodies(); ++i) {
+    bodies[i].is_static = problem.is_support(i) || held[i];
+    if (problem.is_support(i)) continue;
+    const OrientedBox& box = arrangement.boxes[i - problem.supports_count()];
+    bodies[i].weight = problem.cuboid(i).density * box.volume() * kGravity;
+    bodies[i].center = box.center;
+    bodies[i].half_size = radius(box);
+  }
+  for (const auto& [a, b] : arrangement.fixed) {
+    const int first = root(a), second = root(b);
+    parent[std::max(first, second)] = std::min(first, second);
+  }
+  Structure out;
+  out.group.assign(problem.bodies(), -1);
+  int groups = 0;
+  for (int i = 0; i < problem.bodies(); ++i) out.group[i] = root(i) == i ? groups++ : out.group[root(i)];
+  out.bodies = merge(bodies, out.group, groups);
+  for (std::size_t t = 0; t < touches.size(); ++t) {
+    const int a = out.group[touches[t].a], b = out.group[touches[t].b];
+    if (a == b || (out.bodies[a].is_static && out.bodies[b].is_static)) continue;
+    const Vec3& normal = touches[t].interface.normal;
+    for (const Vec3& point : touches[t].interface.points) {
+      out.contacts.push_back({a, b, point, normal, measured_friction(normal, problem.friction)});
+      out.touch_of_contact.push_back(static_cast<int>(t));
+    }
+  }
+  return out;
+}
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cuboids/interface.h"
+#include "cuboids/statics.h"
+#include "unseen/core/geometry.h"
+#include "unseen/cuboids/types.h"
+
+namespace unseen::cuboids {
+
+/// How far each face of a box is moved outward, m. Face 2k is the one at the negative end of axis k, 2k+1 at the positive.
+using Extension = std::array<double, 6>;
+
+/// Outward unit normal of a face.
+Vec3 face_normal(const OrientedBox& box, int face);
+OrientedBox extended(const OrientedBox& box, const Extension& extension);
+
+/// What one hypothesis asks of a box: that a face moves outward by at least `length`.
+struct FaceMove {
+  int body = -1;  ///< index of the body: supports first, then cuboids
+  int face = -1;
+  double length = 0;
+};
+
+/// One way in which a pair of bodies may be in contact, beyond what the initial boxes give.
+struct Hypothesis {
+  int a = -1, b = -1;  ///< bodies, a < b
+  ContactKind kind = ContactKind::touching;
+  std::vector<FaceMove> moves;
+};
+
+/// Bodies are numbered: supports first, then cuboids.
+struct Problem {
+  std::vector<Support> supports;
+  std::vector<Cuboid> cuboids;          ///< with their initial boxes
+  std::vector<double> tolerance;        ///< m, a cuboid: contacts within it count as touching
+  std::vector<Hypothesis> hypotheses;
+  double friction = 0.7;
+  double stable_residual = 0.05;
+
+  int supports_count() const { return static_cast<int>(supports.size()); }
+  int bodies() const { return static_cast<int>(supports.size() + cuboids.size()); }
+  bool is_support(int body) const { return body < supports_count(); }
+  const Cuboid& cuboid(int body) const { return cuboids[body - supports_count()]; }
+  double pair_tolerance(int a, int b) const;
+};
+
+/// A choice of hypotheses, and what follows from it.
+struct Arrangement {
+  std::vector<Extension> extension;     ///< a cuboid
+  std::vector<OrientedBox> boxes;       ///< a cuboid
+  std::vector<ConvexSolid> solids;      ///< a cuboid
+  std::vector<std::array<int, 2>> fixed;  ///< pairs of bodies
+  double extended_volume = 0;           ///< m³
+};
+
+/// Boxes after the moves of the chosen hypotheses; where several move one face, the longest move counts.
+Arrangement arrange(const Problem& problem, const std::vector<int>& chosen);
+
+/// m³ that the moves of a hypothesis would add.
+double added_volume(const Problem& problem, const Arrangement& arrangement, const Hypothesis& hypothesis);
+
+/// A pair of bodies that meet.
+struct Touch {
+  int a = -1, b = -1;
+  Interface interface;
+};
+/// All pairs within tolerance of each other, ordered.
+std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arrangement);
+/// True if a pair of bodies overlaps by more than its tolerance, and more than the initial boxes did.
+bool penetrates(const Problem& problem, const Arrangement& arrangement);
+
+/// The arrangement as statics sees it: fixed bodies merged.
+struct Structure {
+  std::vector<int> group;  ///< a body: which of `bodies` it belongs to
+  std::vector<Body> bodies;
+  std::vector<ContactPoint> contacts;
+  std::vector<int> touch_of_contact;  ///< index into the touches it was made from
+};
+/// `held` bodies are static (a mark a body).
+Structure structure_of(const Problem& problem, const Arrangement& arrangement, const std::vector<Touch>& touches,
+                       const std::vector<char>& held);
+
+}  // namespace unseen::cuboids

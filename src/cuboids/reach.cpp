@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <limits>
+
+#include "cuboids/hypotheses.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kParallel = 1e-6;
+constexpr double kInset = 0.95;  // bodies flush with the sides of the swept space are not in it
+
+/// The part of a polygon on the inner side of a plane.
+std::vector<Vec3> clip(const std::vector<Vec3>& polygon, const Vec3& normal, double offset) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double dp = normal.dot(p) - offset, dq = normal.dot(q) - offset;
+    if (dp <= 0.0) out.push_back(p);
+    if ((dp < 0.0 && dq > 0.0) || (dp > 0.0 && dq < 0.0)) out.push_back(p + dp / (dp - dq) * (q - p));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other) {
+  const Vec3 direction = face_normal(box, face);
+  const double start = direction.dot(box.center) + box.half_size[face / 2];
+  double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+  for (const std::vector<int>& loop : other.faces) {
+    std::vector<Vec3> polygon;
+    for (const int v : loop) polygon.push_back(other.vertices[v]);
+    for (int side = 0; side < 3; ++side) {
+      if (side == face / 2) continue;
+      const Vec3 axis = box.axes.col(side);
+      const double middle = axis.dot(box.center), half = kInset * box.half_size[side];
+      polygon = clip(polygon, axis, middle + half);
+      polygon = clip(polygon, -axis, -middle + half);
+    }
+    for (const Vec3& p : polygon) {
+      nearest = std::min(nearest, direction.dot(p) - start);
+      farthest = std::max(farthest, direction.dot(p) - start);
+    }
+  }
+  // A body that lies behind the face altogether is not met by moving it, nor one that reaches through the box.
+  if (nearest > farthest || farthest < 0.0 || nearest < -box.half_size[face / 2]) return std::nullopt;
+  return std::max(0.0, nearest);
+}
+
+std::optional<double> reach(const OrientedBox& box, int face, const Support& other) {
+  const Vec3 direction = face_normal(box, face);
+  const double towards = -direction.dot(other.plane.normal);
+  if (towards < kParallel) return std::nullopt;
+  double lowest = std::numeric_limits<double>::infinity();
+  Vec3 corner = box.center;
+  for (int i = 0; i < 4; ++i) {
+    Vec3 p = box.center + direction * box.half_size[face / 2];
+    int bit = 0;
+    for (int side = 0; side < 3; ++side)
+      if (side != face / 2) p += ((i >> bit++) & 1 ? 1.0 : -1.0) * box.half_size[side] * box.axes.col(side);
+    if (other.plane.signed_distance(p) < lowest) {
+      lowest = other.plane.signed_distance(p);
+      corner = p;
+    }
+  }
+  const double length = std::max(0.0, lowest / towards);
+  const Vec3 foot = corner + length * direction;
+  for (std::size_t i = 0; i < other.outline.size(); ++i) {
+    const Vec3 &p = other.outline[i], &q = other.outline[(i + 1) % other.outline.size()];
+    if (other.plane.normal.dot((q - p).cross(foot - p)) < 0.0) return std::nullopt;
+  }
+  return length;
+}
+
+}  // namespace unseen::cuboids

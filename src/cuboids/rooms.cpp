@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+
+#include "cuboids/hypotheses.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kFreeShare = 0.05;  // of samples: speckle and edges of the depth image
+constexpr int kMaxSamples = 14;      // along one side of a face
+
+/// Places along one side of a box, away from its edges, where flying pixels are.
+std::vector<double> places(double half, double inset, double step) {
+  const double reach = std::max(half - inset, 0.5 * half);
+  const int count = std::clamp(static_cast<int>(std::ceil(2.0 * reach / step)), 2, kMaxSamples);
+  std::vector<double> out;
+  for (int i = 0; i < count; ++i) out.push_back(-reach + 2.0 * reach * i / (count - 1));
+  return out;
+}
+
+/// Share of the samples of a face, moved outward by `distance`, that the view proves free.
+double free_share(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
+  const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const Vec3 middle = box.center + face_normal(box, face) * (box.half_size[axis] + distance);
+  const double step = std::max(2.0 * view.spacing(middle), inset);
+  int free = 0, all = 0;
+  for (const double x : places(box.half_size[u], inset, step))
+    for (const double y : places(box.half_size[v], inset, step)) {
+      ++all;
+      free += view.at(middle + x * box.axes.col(u) + y * box.axes.col(v)) == DepthView::Space::free;
+    }
+  return static_cast<double>(free) / all;
+}
+
+}  // namespace
+
+Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
+                 double farthest) {
+  Rooms rooms(cuboids.size(), Extension{});
+  for (std::size_t i = 0; i < cuboids.size(); ++i)
+    for (int face = 0; face < 6; ++face) {
+      const double step = tolerance[i];
+      // The first step is within what the fit leaves open; a face that is seen stops at the second.
+      double at = step;
+      while (at < farthest && free_share(view, cuboids[i].initial, face, at + 0.5 * step, tolerance[i]) <= kFreeShare)
+        at += step;
+      rooms[i][face] = at > 1.5 * step ? at : 0.0;
+    }
+  return rooms;
+}
+
+bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin) {
+  int free = 0, all = 0;
+  std::array<std::vector<double>, 3> grid;
+  for (int k = 0; k < 3; ++k) grid[k] = places(box.half_size[k], margin, std::max(margin, box.half_size[k] / 5.0));
+  const Vec3 inner = initial.half_size.array() + margin;
+  for (const double x : grid[0])
+    for (const double y : grid[1])
+      for (const double z : grid[2]) {
+        const Vec3 p = box.center + box.axes * Vec3(x, y, z);
+        if (((initial.axes.transpose() * (p - initial.center)).cwiseAbs() - inner).maxCoeff() <= 0.0) continue;
+        ++all;
+        free += view.at(p) == DepthView::Space::free;
+      }
+  return free <= kFreeShare * all;
+}
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "cuboids/problem.h"
+#include "unseen/core/context.h"
+
+namespace unseen::cuboids {
+
+/// What an arrangement costs: compared in this order.
+struct Cost {
+  int fixed = 0;
+  double volume = 0;  ///< m³
+};
+/// Lexicographic; volumes within a mm³ are equal.
+bool cheaper(const Cost& a, const Cost& b);
+
+/// The chosen hypotheses, and how sure it is that nothing is cheaper.
+struct Choice {
+  std::vector<int> chosen;  ///< indices into Problem::hypotheses, ascending
+  std::vector<char> held;   ///< a body: nothing can support it, so it counts as held by something unknown
+  Cost cost;
+  double residual = 0;
+  std::size_t nodes = 0, pruned = 0;
+  bool optimal = true;
+};
+
+/// True if the geometry of an arrangement is allowed (no extension into free space), beyond not penetrating.
+using Admissible = std::function<bool(const Arrangement&)>;
+
+/// Finds at most one hypothesis a pair such that the arrangement stands, without penetration, with the fewest fixed
+/// contacts and then the least extended volume (design page, step 6). Each unstable arrangement that is met gives a
+/// collapse motion, and of the hypotheses that could stop it one must be chosen: a hitting set is searched by branch and
+/// bound, so that few arrangements are ever balanced.
+Choice search_contacts(const Problem& problem, const Admissible& admissible, double time_limit, Context& context);
+
+}  // namespace unseen::cuboids
