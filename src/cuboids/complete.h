@@ -17,6 +17,10 @@ namespace unseen::cuboids {
 /// between them. `tolerance` (m, a cuboid) shrinks along. Returns how many were joined to others.
 std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);
 
+/// Adds the legs of a plate that are wholly hidden where others of its legs are seen, by mirroring them at the plate's
+/// middle (thesis Section 4.4.1). Returns how many.
+std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);
+
 /// m: how near two faces must be to count as touching, by the noise of the depth there.
 std::vector<double> contact_tolerance(const DepthView& view, const std::vector<Cuboid>& cuboids);
 

@@ -95,6 +95,7 @@ void complete(const RgbdFrame& frame, const Options& options, Context& context, 
     const Stage stage(context, summary, "hypotheses");
     std::vector<double> tolerance = contact_tolerance(view, result.cuboids);
     summary.counts.emplace_back("fused", fuse_pieces(view, result.cuboids, tolerance));
+    summary.counts.emplace_back("by_symmetry", add_hidden_legs(view, result.cuboids, tolerance));
     int id = static_cast<int>(result.supports.size());
     for (Cuboid& cuboid : result.cuboids) {
       cuboid.id = id++;

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/search.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "cuboids/hypotheses.h"
+#include "unseen/core/random.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kTolerance = 0.004;
+
+Cuboid cuboid(const Vec3& center, const Vec3& size, double yaw = 0.0) {
+  Cuboid c;
+  c.initial = {center, Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix(), 0.5 * size};
+  c.box = c.initial;
+  return c;
+}
+
+/// Boxes over a ground, whose faces may all move by `room`, but upward.
+Problem problem_of(std::vector<Cuboid> cuboids, double room) {
+  Problem problem;
+  problem.supports.push_back({0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}});
+  problem.cuboids = std::move(cuboids);
+  problem.tolerance.assign(problem.cuboids.size(), kTolerance);
+  Rooms rooms(problem.cuboids.size());
+  for (Extension& e : rooms) e = {room, room, room, room, room, 0.0};
+  problem.hypotheses = propose_contacts(problem, rooms);
+  return problem;
+}
+
+bool always(const Arrangement&) { return true; }
+
+Choice search(const Problem& problem) {
+  Context context;
+  return search_contacts(problem, always, 60.0, context);
+}
+
+/// The cheapest of all assignments of at most one hypothesis to each pair.
+struct Exhaustive {
+  const Problem& problem;
+  std::vector<std::vector<int>> pairs;
+  bool found = false;
+  Cost best;
+  std::size_t tried = 0;
+
+  explicit Exhaustive(const Problem& p) : problem(p) {
+    std::map<std::pair<int, int>, std::vector<int>> by_pair;
+    for (std::size_t h = 0; h < p.hypotheses.size(); ++h)
+      by_pair[{p.hypotheses[h].a, p.hypotheses[h].b}].push_back(static_cast<int>(h));
+    for (auto& [pair, list] : by_pair) pairs.push_back(list);
+    visit(0, {});
+  }
+  void visit(std::size_t pair, std::vector<int> chosen) {
+    if (pair < pairs.size()) {
+      visit(pair + 1, chosen);
+      for (const int h : pairs[pair]) {
+        chosen.push_back(h);
+        visit(pair + 1, chosen);
+        chosen.pop_back();
+      }
+      return;
+    }
+    ++tried;
+    const Arrangement a = arrange(problem, chosen);
+    const Cost cost = {static_cast<int>(a.fixed.size()), a.extended_volume};
+    if (found && !cheaper(cost, best)) return;
+    if (penetrates(problem, a)) return;
+    const std::vector<char> held(problem.bodies(), 0);
+    const Structure s = structure_of(problem, a, touching_pairs(problem, a), held);
+    if (balance(s.bodies, s.contacts).residual >= problem.stable_residual) return;
+    found = true;
+    best = cost;
+  }
+};
+
+TEST(Search, LeavesWhatStandsAlone) {
+  const Choice choice = search(problem_of({cuboid({0, 0, 0.1}, {0.2, 0.2, 0.2}), cuboid({0, 0, 0.25}, {0.1, 0.1, 0.1}, 0.5)}, 0.5));
+  EXPECT_TRUE(choice.optimal);
+  EXPECT_TRUE(choice.chosen.empty());
+}
+
+TEST(Search, ExtendsAFloatingBoxToTheGround) {
+  const Problem problem = problem_of({cuboid({0, 0, 0.35}, {0.1, 0.1, 0.1})}, 0.5);
+  const Choice choice = search(problem);
+  EXPECT_TRUE(choice.optimal);
+  EXPECT_EQ(choice.cost.fixed, 0);
+  EXPECT_NEAR(choice.cost.volume, 0.01 * 0.3, 1e-9);
+  EXPECT_NEAR(arrange(problem, choice.chosen).boxes[0].half_size.z(), 0.2, 1e-9);
+}
+
+TEST(Search, LetsACarrierGrowUnderTheCentreOfMass) {
+  // The upper box rests on the lower one by a tenth of its length only.
+  const Problem problem = problem_of({cuboid({-0.08, 0, 0.1}, {0.1, 0.2, 0.2}), cuboid({0.01, 0, 0.25}, {0.1, 0.2, 0.1})}, 0.5);
+  const Choice choice = search(problem);
+  EXPECT_EQ(choice.cost.fixed, 0);
+  const Arrangement a = arrange(problem, choice.chosen);
+  EXPECT_NEAR(a.boxes[0].center.x() + a.boxes[0].half_size.x(), 0.01, 0.011);  // at the centre of mass of the upper one
+}
+
+TEST(Search, FixesOnlyWhatNothingElseHolds) {
+  // A block beside a pillar, with no room to grow: it can only be part of it.
+  const Choice choice = search(problem_of({cuboid({0, 0, 0.2}, {0.1, 0.1, 0.4}), cuboid({0.1, 0, 0.3}, {0.1, 0.1, 0.05})}, 0.0));
+  EXPECT_TRUE(choice.optimal);
+  EXPECT_EQ(choice.cost.fixed, 1);
+  EXPECT_EQ(choice.cost.volume, 0.0);
+}
+
+TEST(Search, CallsUnsupportedWhatNothingCanHold) {
+  const Problem problem = problem_of({cuboid({0, 0, 0.1}, {0.2, 0.2, 0.2}), cuboid({2, 0, 0.9}, {0.1, 0.1, 0.1})}, 0.0);
+  const Choice choice = search(problem);
+  EXPECT_FALSE(choice.held[1]);
+  EXPECT_TRUE(choice.held[2]);
+}
+
+TEST(Search, EqualsBruteForce) {
+  Random random(7);
+  int compared = 0, extended = 0, fixed = 0;
+  for (int scene = 0; scene < 400 && compared < 60; ++scene) {
+    std::vector<Cuboid> cuboids;
+    const int count = 2 + static_cast<int>(random.index(2));
+    for (int i = 0; i < count; ++i) {
+      const Vec3 size(random.uniform(0.05, 0.2), random.uniform(0.05, 0.2), random.uniform(0.05, 0.2));
+      const double z = random.uniform() < 0.4 ? 0.5 * size.z() : random.uniform(0.1, 0.5);
+      cuboids.push_back(cuboid({random.uniform(-0.12, 0.12), random.uniform(-0.12, 0.12), z}, size, random.uniform(-0.2, 0.2)));
+    }
+    const Problem problem = problem_of(cuboids, random.uniform(0.0, 0.4));
+    double assignments = 1.0;
+    std::map<std::pair<int, int>, int> by_pair;
+    for (const Hypothesis& h : problem.hypotheses) ++by_pair[{h.a, h.b}];
+    for (const auto& [pair, n] : by_pair) assignments *= n + 1;
+    const auto touches = touching_pairs(problem, arrange(problem, {}));
+    const bool overlapping = std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.interface.gap < -kTolerance; });
+    if (assignments > 2e4 || overlapping) continue;
+    const Exhaustive brute(problem);
+    const Choice choice = search(problem);
+    const bool nothing_held = std::none_of(choice.held.begin(), choice.held.end(), [](char h) { return h; });
+    ASSERT_EQ(brute.found, nothing_held) << scene;
+    ++compared;
+    if (!brute.found) continue;
+    EXPECT_TRUE(choice.optimal);
+    EXPECT_EQ(choice.cost.fixed, brute.best.fixed) << scene;
+    EXPECT_NEAR(choice.cost.volume, brute.best.volume, 1e-8) << scene;
+    extended += choice.cost.volume > 0.0;
+    fixed += choice.cost.fixed > 0;
+  }
+  EXPECT_GE(compared, 40);
+  EXPECT_GE(extended, 10);
+  EXPECT_GE(fixed, 3);
+}
+
+}  // namespace
+}  // namespace unseen::cuboids
