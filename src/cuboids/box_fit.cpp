@@ -166,9 +166,10 @@ OrientedBox bound(const Observation& seen, std::span<const int> points, std::spa
   }
   const Vec3 viewpoint = axes.transpose() * seen.T_world_camera.translation;
   for (int k = 0; k < 3; ++k) {
-    const int p = (k + 1) % 3, q = (k + 2) % 3, m = extent[p] > extent[q] ? p : q;
     for (const double sign : {-1.0, 1.0}) {
-      double end = end_of(seen, points, axes, k, m, sign);
+      // A side seen edge on ends the slices along one of the other axes, not along both.
+      double end = sign * std::max(sign * end_of(seen, points, axes, k, (k + 1) % 3, sign),
+                                   sign * end_of(seen, points, axes, k, (k + 2) % 3, sign));
       double largest = 0;
       for (const Face* face : faces) largest = std::max(largest, sign * axes.col(k).dot(face->plane.normal) > kFaceCosine ? face->area : 0.0);
       // The outermost of the large faces that look this way.

@@ -19,6 +19,7 @@ constexpr std::size_t kFewestPoints = 60;     // of an object
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
 constexpr double kCurved = 30.0;              // degrees that neighbouring pieces of a hollow surface may differ by
 constexpr std::size_t kFewestBorderLinks = 4;
+constexpr double kSliver = 6.0;                // widths, in noise or spacing
 constexpr double kOutside = 0.02;             // m beyond the outline of the ground, where something else carries
 
 /// Where two faces meet.
@@ -27,6 +28,16 @@ struct Border {
   Vec3 place = Vec3::Zero();  ///< sum over links
   bool concave = false, joins = false;
 };
+
+/// Strips as narrow as what a sensor blurs along an edge say nothing of their own: what is next to them gets them.
+void leave_out_slivers(Faces& faces, const PointGraph& graph) {
+  for (const Face& face : faces.faces) {
+    const int i = face.points.front();
+    const double blur = std::max(graph.sigma[i], graph.spacing[i]);
+    if (face.width * std::sqrt(12.0) > kSliver * blur) continue;
+    for (const int j : face.points) faces.face_of_point[j] = -1;
+  }
+}
 
 /// Every point of the groups that some face can be reached from gets the nearest (in links) face.
 std::vector<int> spread(const Faces& faces, const PointGraph& graph, std::span<const int> group) {
@@ -152,7 +163,8 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   if (!masked) {
     std::vector<int> unmarked = group;
     for (int& g : unmarked) g = g == 0 ? 0 : -1;
-    const Faces faces = grow_faces(seen.points, seen.graph, unmarked, seen.T_world_camera.translation, kFewestFacePoints);
+    Faces faces = grow_faces(seen.points, seen.graph, unmarked, seen.T_world_camera.translation, kFewestFacePoints);
+    leave_out_slivers(faces, seen.graph);
     const std::vector<int> owner = spread(faces, seen.graph, unmarked), joined = join_faces(faces, owner, seen);
     const int first = static_cast<int>(labels.size()) + 2;
     for (std::size_t i = 0; i < object.size(); ++i)
