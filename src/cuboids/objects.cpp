@@ -15,7 +15,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kFewestFacePoints = 30;
-constexpr std::size_t kFewestPoints = 60;     // of an object
+constexpr std::size_t kFewestPoints = 120;    // of an object
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
 constexpr double kCurved = 30.0;              // degrees that neighbouring pieces of a hollow surface may differ by
 constexpr std::size_t kFewestBorderLinks = 4;

@@ -10,8 +10,8 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kMostCells = 14;          // an axis; (14 · 15 / 2)³ candidates
-constexpr double kSmallestShare = 0.06; // of the points of the whole
-constexpr std::size_t kFewestPoints = 40;
+constexpr double kSmallestShare = 0.1;  // of the points of the whole
+constexpr std::size_t kFewestPoints = 100;
 constexpr int kMostSlabs = 12;
 
 using Index3 = std::array<int, 3>;

@@ -18,7 +18,8 @@ constexpr double kCarryShare = 1.0 / 3.0;     // of what the surface that carrie
 constexpr double kCarryHeight = 0.5;          // m
 constexpr double kWallShare = 0.25;           // of the square of the scene's radius
 constexpr double kMostBehindWall = 0.03;      // of the points
-constexpr double kDeskHeight = 0.3, kDeskArea = 0.4;  // m, m²
+constexpr double kDeskArea = 0.4;  // m²; what is flat and as large may carry things itself
+constexpr double kBelow = 0.1, kBelowShare = 0.05;  // m below the ground, share of the points
 constexpr std::size_t kMostFitPoints = 40000;
 
 struct Level {
@@ -66,7 +67,8 @@ void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v) {
   level.outline = convex_outline(std::move(flat));
 }
 
-/// m² of surface that stands on each level: above it, within its outline, and on no level itself.
+/// Points that stand on each level: above it, within its outline, and on no level itself. They are counted as the
+/// camera sees them: what it was pointed at matters, not what looms behind.
 void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, const Vec3& v) {
   std::vector<char> flat(scan.faces.faces.size(), 0);
   for (const Level& level : levels)
@@ -75,12 +77,11 @@ void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, c
   for (std::size_t i = 0; i < scan.points.size(); i += 3) {
     const int f = scan.faces.face_of_point[i];
     if (f >= 0 && flat[f]) continue;
-    const double area = 3.0 * scan.graph.spacing[i] * scan.graph.spacing[i];
     const Vec2 place(u.dot(scan.points[i]), v.dot(scan.points[i]));
     for (Level& level : levels) {
       const double height = level.plane.signed_distance(scan.points[i]);
       if (height > 6.0 * scan.graph.sigma[i] && height < kCarryHeight && inside_outline(level.outline, place, 0.0))
-        level.carried += area;
+        level.carried += 1.0;
     }
   }
 }
@@ -106,7 +107,7 @@ bool bounds_the_scene(const Scan& scan, const Level& level, const Vec3& u, const
     if (!inside_outline(level.outline, place, 0.0)) continue;
     ++(d < 0 ? behind : before);
   }
-  return static_cast<double>(behind) <= kMostBehindWall * static_cast<double>(behind + before + level.area * 0);
+  return static_cast<double>(behind) <= kMostBehindWall * static_cast<double>(behind + before);
 }
 
 std::vector<Vec3> lifted(const Level& level, const Vec3& u, const Vec3& v) {
@@ -254,7 +255,12 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up) {
   const auto ground = std::find_if(levels.begin(), levels.end(),
                                    [&](const Level& level) { return level.carried >= kCarryShare * most; });
   found.up = ground->plane.normal;
-  add_support(found, scan, *ground, SupportKind::ground, ground == levels.begin() ? std::vector<Vec3>{} : lifted(*ground, u, v));
+  // A surface that something was seen below ends where it was seen to end; another one goes on.
+  const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) {
+    return ground->plane.signed_distance(p) < -kBelow;
+  });
+  const bool ends = static_cast<double>(below) > kBelowShare * static_cast<double>(scan.points.size());
+  add_support(found, scan, *ground, SupportKind::ground, ends ? lifted(*ground, u, v) : std::vector<Vec3>{});
 
   const double smallest_wall = kWallShare * std::pow(scene_radius(scan), 2);
   for (Level& wall : coplanar(scan, upright)) {

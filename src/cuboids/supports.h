@@ -35,7 +35,7 @@ struct Scan {
 /// and walls.
 Vec3 find_up(const Scan& scan);
 
-/// Ground: the lowest large horizontal surface that carries things. Then desks that the picture cuts, walls that
+/// Ground: the lowest large horizontal surface that carries things. Then walls that
 /// bound what was seen, ceilings. Empty supports if there is no ground.
 FoundSupports find_supports(const Scan& scan, const Vec3& up);
 
