@@ -21,8 +21,10 @@ namespace {
 constexpr double kFirstSigma = 100.0, kSigmaGrowth = 10.0, kLargestSigma = 1e5;
 constexpr int kRounds = 60, kSteps = 80;
 constexpr double kBalanced = 1e-11;  ///< residual of a body
-constexpr double kMinimal = 1e-12;   ///< gradient of ψ
-constexpr double kCertain = 1e-9;    ///< share of ‖r‖² by which the dual bound may miss it
+constexpr double kMinimal = 1e-12;   ///< gradient of ψ, at least; per σ, what rounding leaves
+constexpr double kRounding = 1e-15;
+constexpr double kRough = 1e-2;      ///< share of a round's change in f/σ to which it need be solved
+constexpr double kCertain = 1e-7;    ///< share of ‖r‖² by which the dual bound may miss it
 
 using Vector = Eigen::VectorXd;
 
@@ -97,15 +99,14 @@ class Solver {
     double sigma = kFirstSigma;
     for (int round = 0; round < kRounds; ++round) {
       minimise(r, sigma);
-      double change = 0, size = 0;
+      double size = 0;
       for (std::size_t c = 0; c < contacts_.size(); ++c) {
-        change += (next_[c].force - force_[c]).squaredNorm();
         size += next_[c].force.squaredNorm();
         force_[c] = next_[c].force;
       }
       exact = residual_of(force_);
       // Dᵀr misses the dual cone by change/σ at most, so ‖r‖² is that much times ‖f‖ from its least value.
-      const double miss = std::sqrt(change * size) / sigma;
+      const double miss = std::sqrt(change_ * size) / sigma;
       if (exact.norm() < kBalanced || miss <= kCertain * exact.squaredNorm()) break;
       sigma = std::min(sigma * kSigmaGrowth, kLargestSigma);
     }
@@ -121,13 +122,15 @@ class Solver {
     return r;
   }
 
-  /// ψ at r; sets next_ to the projections and `gradient`.
+  /// ψ at r; sets `gradient`, next_ to the projections and change_ to their squared distance from force_.
   double evaluate(const Vector& r, double sigma, Vector& gradient) {
     gradient = r - load_;
     double sum = 0;
+    change_ = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const ConeContact& k = contacts_[c];
       next_[c] = project_to_cone(force_[c] - sigma * felt_by(k, r), k.normal, k.friction);
+      change_ += (next_[c].force - force_[c]).squaredNorm();
       if (next_[c].is_zero) continue;
       sum += next_[c].force.squaredNorm();
       add_force(k, -next_[c].force, gradient);
@@ -154,7 +157,9 @@ class Solver {
   void minimise(Vector& r, double sigma) {
     Vector gradient(r.size()), step(r.size()), trial_gradient(r.size());
     double value = evaluate(r, sigma, gradient);
-    for (int i = 0; i < kSteps && gradient.norm() > kMinimal; ++i) {
+    const double rounding = std::max(kMinimal, kRounding * sigma);
+    for (int i = 0; i < kSteps; ++i) {
+      if (gradient.norm() <= std::max(rounding, kRough * std::sqrt(change_) / sigma)) break;
       assemble(sigma);
       if (!matrix_.factor()) break;
       step = -gradient;
@@ -181,6 +186,7 @@ class Solver {
   Vector load_;
   std::vector<Vec3> force_;
   std::vector<ConeProjection> next_;
+  double change_ = 0;
 };
 
 /// The component of each body, −1 for static ones; returns how many there are.
