@@ -19,7 +19,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFirstSigma = 100.0, kSigmaGrowth = 10.0, kLargestSigma = 1e5;
-constexpr int kRounds = 60, kSteps = 80;
+constexpr int kRounds = 60, kSteps = 200, kTries = 60;
 constexpr double kBalanced = 1e-11;  ///< residual of a body
 constexpr double kMinimal = 1e-12;   ///< gradient of ψ, at least; per σ, what rounding leaves
 constexpr double kRounding = 1e-15;
@@ -122,20 +122,17 @@ class Solver {
     return r;
   }
 
-  /// ψ at r; sets `gradient`, next_ to the projections and change_ to their squared distance from force_.
-  double evaluate(const Vector& r, double sigma, Vector& gradient) {
+  /// Sets `gradient` to that of ψ at r, next_ to the projections, change_ to their squared distance from force_.
+  void evaluate(const Vector& r, double sigma, Vector& gradient) {
     gradient = r - load_;
-    double sum = 0;
     change_ = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const ConeContact& k = contacts_[c];
       next_[c] = project_to_cone(force_[c] - sigma * felt_by(k, r), k.normal, k.friction);
       change_ += (next_[c].force - force_[c]).squaredNorm();
       if (next_[c].is_zero) continue;
-      sum += next_[c].force.squaredNorm();
       add_force(k, -next_[c].force, gradient);
     }
-    return 0.5 * r.squaredNorm() - r.dot(load_) + sum / (2.0 * sigma);
   }
 
   void assemble(double sigma) {
@@ -155,8 +152,8 @@ class Solver {
   }
 
   void minimise(Vector& r, double sigma) {
-    Vector gradient(r.size()), step(r.size()), trial_gradient(r.size());
-    double value = evaluate(r, sigma, gradient);
+    Vector gradient(r.size()), step(r.size());
+    evaluate(r, sigma, gradient);
     const double rounding = std::max(kMinimal, kRounding * sigma);
     for (int i = 0; i < kSteps; ++i) {
       if (gradient.norm() <= std::max(rounding, kRough * std::sqrt(change_) / sigma)) break;
@@ -164,21 +161,35 @@ class Solver {
       if (!matrix_.factor()) break;
       step = -gradient;
       matrix_.solve(step);
-      const double slope = gradient.dot(step);
-      double length = 1.0, trial_value = 0;
-      for (; length > 1e-4; length *= 0.5) {
-        trial_value = evaluate(r + length * step, sigma, trial_gradient);
-        // Near the minimum ψ is all rounding; there the gradient tells.
-        if (trial_value <= value + 1e-4 * length * slope || trial_gradient.norm() < 0.5 * gradient.norm()) break;
-      }
-      if (!(length > 1e-4)) {
-        evaluate(r, sigma, gradient);
-        break;
-      }
-      r += length * step;
-      value = trial_value;
-      gradient.swap(trial_gradient);
+      if (!walk(r, step, sigma, gradient)) break;
     }
+  }
+
+  /// Goes along a step to where ψ rises or falls less than half as steeply as at first; false if rounding hides where.
+  /// ψ is convex with sharp bends, some 10⁵ times as steep on one side, so halving a whole step would not get there.
+  bool walk(Vector& r, const Vector& step, double sigma, Vector& gradient) {
+    const double first = gradient.dot(step);
+    double low = 0.0, low_slope = first, high = 1.0, high_slope = 0.0, at = 1.0;
+    for (int i = 0; i < kTries; ++i) {
+      evaluate(r + at * step, sigma, gradient);
+      const double slope = gradient.dot(step);
+      if (std::abs(slope) <= -0.5 * first || (i == 0 && slope < 0.0)) {
+        r += at * step;
+        return true;
+      }
+      if (slope < 0.0) {
+        low = at;
+        low_slope = slope;
+      } else {
+        high = at;
+        high_slope = slope;
+      }
+      at = low - low_slope * (high - low) / (high_slope - low_slope);
+      // A secant alone creeps towards a bend.
+      if (i % 3 == 2 || !(at > low && at < high)) at = 0.5 * (low + high);
+    }
+    evaluate(r, sigma, gradient);
+    return false;
   }
 
   const std::vector<ConeContact>& contacts_;
