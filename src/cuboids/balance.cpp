@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFirstSigma = 100.0, kSigmaGrowth = 10.0, kLargestSigma = 1e5;
 constexpr int kRounds = 60, kSteps = 200, kTries = 60;
-constexpr double kBalanced = 1e-11;  ///< residual of a body
+constexpr double kBalanced = 1e-11;  ///< residual
 constexpr double kMinimal = 1e-12;   ///< gradient of ψ, at least; per σ, what rounding leaves
 constexpr double kRounding = 1e-15;
 constexpr double kRough = 1e-2;      ///< share of a round's change in f/σ to which it need be solved
@@ -49,6 +49,12 @@ struct Component {
   std::vector<ConeContact> contacts;
   std::vector<std::pair<int, int>> pairs;
 };
+
+double largest_part(const Vector& r) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < r.size(); i += 3) largest = std::max(largest, r.segment<3>(i).norm());
+  return largest;
+}
 
 Vec3 felt_by(const ConeContact& c, const Vector& r) {  // Dᵀr
   Vec3 sum = Vec3::Zero();
@@ -94,7 +100,7 @@ class Solver {
   }
 
   /// Returns the residual Df + w; force_ then holds f.
-  Vector solve() {
+  Vector solve(const Effort& effort) {
     Vector r = residual_of(force_), exact = r;
     double sigma = kFirstSigma;
     for (int round = 0; round < kRounds; ++round) {
@@ -107,7 +113,7 @@ class Solver {
       exact = residual_of(force_);
       // Dᵀr misses the dual cone by change/σ at most, so ‖r‖² is that much times ‖f‖ from its least value.
       const double miss = std::sqrt(change_ * size) / sigma;
-      if (exact.norm() < kBalanced || miss <= kCertain * exact.squaredNorm()) break;
+      if (largest_part(exact) < std::max(kBalanced, effort.enough) || miss <= effort.certain * exact.squaredNorm()) break;
       sigma = std::min(sigma * kSigmaGrowth, kLargestSigma);
     }
     return exact;
@@ -266,19 +272,17 @@ std::vector<Component> components_of(std::span<const Body> bodies, std::span<con
 }  // namespace
 
 Balance balance(std::span<const Body> bodies, std::span<const ContactPoint> contacts, const Vec3& gravity,
-                std::span<const Vec3> start) {
+                std::span<const Vec3> start, const Effort& effort) {
   Balance result;
   result.forces.assign(contacts.size(), Vec3::Zero());
   result.motion.assign(bodies.size(), Vec6::Zero());
   for (const Component& component : components_of(bodies, contacts)) {
     Solver solver(component, gravity);
     if (start.size() == contacts.size()) solver.start_from(start);
-    const Vector r = solver.solve();
-    for (std::size_t i = 0; i < component.bodies.size(); ++i) {
-      const Vec6 part = r.segment<6>(6 * i);
-      result.motion[component.bodies[i]] = part;
-      result.residual = std::max({result.residual, part.head<3>().norm(), part.tail<3>().norm()});
-    }
+    const Vector r = solver.solve(effort);
+    for (std::size_t i = 0; i < component.bodies.size(); ++i)
+      result.motion[component.bodies[i]] = r.segment<6>(6 * i);
+    result.residual = std::max(result.residual, largest_part(r));
     for (std::size_t c = 0; c < component.contacts.size(); ++c)
       result.forces[component.contacts[c].index] = component.contacts[c].unit * solver.forces()[c];
   }

@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kDirections = 16;
 constexpr double kMarginStep = 1e-3;    // g
 constexpr double kFrictionStep = 2e-3;  // of μ
+constexpr double kRough = 1e-4;  // Effort::certain: only falling or not counts
 constexpr double kNearHorizontal = 0.26;  // |n·up| below this: within 15° of horizontal
 
 Vec3 direction(std::size_t k) {
@@ -88,6 +89,7 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
               double limit) {
   const Balance at_rest = balance(bodies, contacts);
   if (!(at_rest.residual < stable_residual)) return 0.0;
+  const Effort effort{0.5 * stable_residual, kRough};
   PushBounds bounds(limit + kMarginStep);
   double least = limit;
   for (std::size_t checked = 0; checked < kDirections; ++checked) {
@@ -96,7 +98,7 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
       const double tried = std::min(least, bounds.high[k] - step);
       if (tried <= 0.0) return 0.0;
       const Vec3 push = tried * direction(k);
-      const Balance pushed = balance(bodies, contacts, push - Vec3::UnitZ(), at_rest.forces);
+      const Balance pushed = balance(bodies, contacts, push - Vec3::UnitZ(), at_rest.forces, effort);
       if (pushed.residual < stable_residual) {
         least = tried;
         break;
@@ -111,11 +113,12 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
 double friction_needed(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual) {
   double high = 0.0;
   for (const ContactPoint& c : contacts) high = std::max(high, c.friction);
+  const Effort effort{0.5 * stable_residual, kRough};
   std::vector<Vec3> start;
   std::vector<ContactPoint> slippery(contacts.begin(), contacts.end());
   const auto stands_with = [&](double friction) {
     for (std::size_t i = 0; i < contacts.size(); ++i) slippery[i].friction = std::min(contacts[i].friction, friction);
-    Balance tried = balance(bodies, slippery, -Vec3::UnitZ(), start);
+    Balance tried = balance(bodies, slippery, -Vec3::UnitZ(), start, effort);
     const bool stands = tried.residual < stable_residual;
     if (stands) start = std::move(tried.forces);
     return stands;
