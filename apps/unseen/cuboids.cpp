@@ -126,6 +126,9 @@ Command add_cuboids(CLI::App& app, const std::string& shell_command) {
                   "ceiling; may be repeated")
       ->type_name("NX,NY,NZ,D[,KIND]")
       ->allow_extra_args(false);
+  sub->add_option_function<std::string>(
+         "--mu", [&given = args->given](const std::string& text) { given.emplace_back("friction", text); }, "the same as --friction")
+      ->type_name("X");
   sub->add_flag("--no-report", args->no_report, "leave out report.html");
   add_flags(*sub, args->common);
   sub->footer(
