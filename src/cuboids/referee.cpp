@@ -91,12 +91,12 @@ std::string support_text(const Support& support, bool is_ground) {
 std::string model_text(const RefereeScene& scene, const std::vector<int>& body, const Vec3& down) {
   std::string text;
   auto out = std::back_inserter(text);
-  const std::size_t pairs = 16 * (scene.boxes.size() + 1) * 8;
+  const std::size_t points = 24 * (scene.boxes.size() + 1);  // MuJoCo's memory grows with the square of this
   fmt::format_to(out,
                  "<mujoco><size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>"
                  "<option timestep=\"{}\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\" "
                  "gravity=\"{}\"/><default><geom friction=\"{} 0.005 0.0001\" solref=\"0.004 1\"/></default><worldbody>",
-                 pairs, 4 * pairs, 40'000'000, kStep, vector_text(kGravity * down), scene.friction);
+                 points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kStep, vector_text(kGravity * down), scene.friction);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) text += support_text(scene.supports[i], i == 0);
   const auto add_boxes = [&](int of) {
     for (std::size_t i = 0; i < scene.boxes.size(); ++i)
