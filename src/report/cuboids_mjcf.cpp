@@ -83,17 +83,19 @@ std::string group_body(const Completion& c, const RigidGroup& group) {
 }  // namespace
 
 std::string cuboids_mjcf(const Completion& c, double friction) {
-  // Every pair of boxes may touch at up to eight points; MuJoCo 2.2 wants to know before.
-  const std::size_t contacts = 200 + 100 * c.cuboids.size();
+  // MuJoCo 2.2 wants to know before how much may touch. A box of a full wall has 10 contact points; its default memory
+  // (nstack, numbers) grows with the square of all constraints and is far more than a sparse contact graph takes.
+  const std::size_t boxes = c.cuboids.size(), contacts = 100 + 24 * boxes, constraints = 36 * boxes;
+  const std::size_t numbers = 1'000'000 + 2 * constraints * constraints;
   std::string text = fmt::format(
       "<mujoco model=\"unseen\">\n"
       "  <compiler angle=\"radian\"/>\n"
       "  <option timestep=\"0.001\" gravity=\"0 0 -9.81\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\"/>\n"
-      "  <size nconmax=\"{}\" njmax=\"{}\"/>\n"
+      "  <size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>\n"
       "  <default>\n    <geom friction=\"{:.9g} 0.005 0.0001\"/>\n  </default>\n"
       "  <visual>\n    <global offwidth=\"1280\" offheight=\"960\"/>\n  </visual>\n"
       "  <worldbody>\n    <light directional=\"true\" pos=\"0 0 3\" dir=\"0.2 0.3 -1\"/>\n",
-      contacts, 4 * contacts, friction);
+      contacts, 3 * contacts, numbers, friction);
   for (const cuboids::Support& support : c.supports) text += support_geom(support);
   for (const RigidGroup& group : rigid_groups(c)) text += group_body(c, group);
   return text + "  </worldbody>\n</mujoco>\n";

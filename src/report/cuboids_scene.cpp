@@ -23,24 +23,38 @@ Json column(std::string_view name, std::string_view unit = "", int digits = -1) 
   return json;
 }
 
-/// "0.412 × 0.263 × 0.150"
+/// "41.2 × 26.3 × 15.0"
 std::string sizes(const OrientedBox& box) {
-  const Vec3 s = 2.0 * box.half_size;
-  return fmt::format("{:.3f} × {:.3f} × {:.3f}", s.x(), s.y(), s.z());
+  const Vec3 s = 200.0 * box.half_size;  // cm
+  return fmt::format("{:.1f} × {:.1f} × {:.1f}", s.x(), s.y(), s.z());
 }
 
 void add_box_table(SceneBuilder& scene, const Completion& c) {
   Json rows = Json::array();
   for (const cuboids::Cuboid& cuboid : c.cuboids) {
     const bool unsupported = std::find(c.unsupported.begin(), c.unsupported.end(), cuboid.id) != c.unsupported.end();
-    rows.push_back({cuboid.id, cuboid.label, sizes(cuboid.box), sizes(cuboid.initial), number(cuboid.mass()),
-                    cuboid.visible_points, unsupported ? "unsupported" : cuboid.by_symmetry ? "by symmetry" : ""});
+    const std::string remark = unsupported ? "unsupported" : cuboid.by_symmetry ? "by symmetry" : hidden_boxes(cuboid).empty() ? "" : "completed";
+    rows.push_back({name_of(cuboid), sizes(cuboid.box), cuboid.by_symmetry ? "–" : sizes(cuboid.initial), remark,
+                    number(cuboid.mass()), cuboid.visible_points});
   }
-  scene.header["tables"].push_back({{"title", "Boxes"},
-                                    {"structure", "boxes"},
+  scene.header["tables"].push_back(
+      {{"title", "Boxes"},
+       {"structure", "boxes"},
+       {"columns",
+        {column("box"), column("size", "cm"), column("seen", "cm"), column("remark"), column("mass", "kg", 2), column("points")}},
+       {"rows", std::move(rows)}});
+}
+
+void add_support_table(SceneBuilder& scene, const Completion& c) {
+  Json rows = Json::array();
+  for (const cuboids::Support& s : c.supports) {
+    const Vec3& n = s.plane.normal;
+    rows.push_back({name_of(s), fmt::format("{:.3f}, {:.3f}, {:.3f}", n.x(), n.y(), n.z()), number(s.plane.offset)});
+  }
+  scene.header["tables"].push_back({{"title", "Supports"},
+                                    {"structure", "supports"},
                                     {"columns",
-                                     {column("box"), column("label"), column("size", "m"), column("seen size", "m"),
-                                      column("mass", "kg", 3), column("points"), column("remark")}},
+                                     {column("support"), column("normal"), column("offset", "m", 3)}},
                                     {"rows", std::move(rows)}});
 }
 
@@ -115,6 +129,7 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
   add_camera(scene, c, frame);
   add_box_table(scene, c);
   add_contact_table(scene, c);
+  add_support_table(scene, c);
   return scene.encode();
 }
 

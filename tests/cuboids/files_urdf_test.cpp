@@ -102,7 +102,9 @@ struct Robot {
     EXPECT_EQ(root.name, "robot");
     std::set<std::string> joints;
     for (const Element& e : root.children) {
-      if (e.name == "link") EXPECT_TRUE(links.emplace(e.attributes.at("name"), e).second) << "two links of a name";
+      if (e.name == "link") {
+        EXPECT_TRUE(links.emplace(e.attributes.at("name"), e).second) << "two links of a name";
+      }
       if (e.name != "joint") continue;
       EXPECT_TRUE(joints.insert(e.attributes.at("name")).second) << "two joints of a name";
       const std::string child = e.child("child").attributes.at("link"), parent = e.child("parent").attributes.at("link");
