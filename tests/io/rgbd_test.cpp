@@ -9,10 +9,13 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "unseen/core/error.h"
@@ -318,6 +321,30 @@ TEST_F(Rgbd, HostileJson) {
   EXPECT_THROW(read_rgbd_frame(file("frame.json")), InputError);
   fs::resize_file(file("frame.json"), 1 << 30);
   refused("", {"MiB"});
+}
+
+TEST(RealFrames, AreRead) {
+  const fs::path data = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/cuboids";
+  if (!fs::is_directory(data)) GTEST_SKIP() << "no data in " << data << ": real frames not checked";
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator(data)) {
+    if (!fs::exists(entry.path() / "frame.json")) continue;
+    const RgbdFrame frame = read_rgbd_frame(entry.path());
+    EXPECT_EQ(frame.depth.size(), static_cast<std::size_t>(frame.camera.width) * static_cast<std::size_t>(frame.camera.height));
+    EXPECT_EQ(frame.color.size(), frame.depth.size());
+    // What its meta.json says was measured apart from us: the share of known pixels, and the depths in metres.
+    std::ifstream in(entry.path() / "meta.json");
+    const nlohmann::json meta = nlohmann::json::parse(in);
+    std::vector<float> known;
+    std::copy_if(frame.depth.begin(), frame.depth.end(), std::back_inserter(known), [](float d) { return d > 0.0f; });
+    const auto pixels = static_cast<double>(frame.depth.size());
+    EXPECT_NEAR(static_cast<double>(known.size()), meta["valid"].get<double>() * pixels, 0.5) << entry.path();
+    ASSERT_FALSE(known.empty());
+    EXPECT_NEAR(*std::min_element(known.begin(), known.end()), meta["cloud_min"][2].get<double>(), 6e-4) << entry.path();
+    EXPECT_NEAR(*std::max_element(known.begin(), known.end()), meta["cloud_max"][2].get<double>(), 6e-4) << entry.path();
+    ++frames;
+  }
+  EXPECT_GT(frames, 0);
 }
 
 TEST(Supports, FromText) {
