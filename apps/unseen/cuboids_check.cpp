@@ -42,8 +42,8 @@ void print_verdict(const cuboids::Check& check, std::size_t blocks, const cuboid
   const cuboids::Stability& s = check.stability;
   fmt::print("{} blocks, {} contacts, fixed: {}\n", blocks, check.contacts.size(), fmt::join(options.supports, ", "));
   if (s.stable)
-    fmt::print("stands: bears a sideways push of {:.3f} g, needs a friction of {:.3f} (has {:.4g})\n", s.margin, s.friction_needed,
-               options.friction);
+    fmt::print("stands: bears a sideways push of {:.3f} g, needs a friction of {:.3f} (has {:.4g})\n", s.margin,
+               s.friction_needed, options.friction);
   else
     fmt::print("falls\n");
   fmt::print("residual {:.2g}\n", s.residual);

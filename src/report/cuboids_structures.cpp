@@ -39,7 +39,8 @@ OrientedBox aligned(const OrientedBox& initial, const OrientedBox& to) {
   for (int a = 0; a < 2; ++a) {
     int best = -1;
     for (int k = 0; k < 3; ++k)
-      if (!used[k] && (best < 0 || std::abs(initial.axes.col(k).dot(to.axes.col(a))) > std::abs(initial.axes.col(best).dot(to.axes.col(a)))))
+      if (!used[k] && (best < 0 || std::abs(initial.axes.col(k).dot(to.axes.col(a))) >
+                                       std::abs(initial.axes.col(best).dot(to.axes.col(a)))))
         best = k;
     used[best] = true;
     const double sign = initial.axes.col(best).dot(to.axes.col(a)) < 0 ? -1.0 : 1.0;
@@ -187,10 +188,12 @@ void add_depth(SceneBuilder& scene, const Completion& c, const DepthPoints& poin
       boxes.push_back(owner[i]);
     }
     if (positions.empty()) continue;
-    Json& cloud = scene.add("points", on_boxes ? "points" : "surroundings", on_boxes ? "Points on boxes" : "Other points");
+    Json& cloud =
+        scene.add("points", on_boxes ? "points" : "surroundings", on_boxes ? "Points on boxes" : "Other points");
     cloud["visible"] = !on_boxes;
     cloud["positions"] = scene.point_positions(positions);
-    if (!colors.empty()) cloud["quantities"].push_back(quantity("photograph", "Photograph", "color", scene.colors(colors)));
+    if (!colors.empty())
+      cloud["quantities"].push_back(quantity("photograph", "Photograph", "color", scene.colors(colors)));
     Json box = quantity("box", "Box", "label", scene.integers(boxes));
     box["structure"] = "boxes";
     cloud["quantities"].push_back(box);
