@@ -61,7 +61,7 @@ void judge(Border& border, const Face& a, const Face& b, double sigma, double sp
   const double rise = a.plane.normal.dot((b.center - place).normalized()) + b.plane.normal.dot((a.center - place).normalized());
   // Edges are measured round.
   const double off = std::max(std::abs(a.plane.signed_distance(place)), std::abs(b.plane.signed_distance(place)));
-  const bool meets = off < 6.0 * sigma + 3.0 * spacing;
+  const bool meets = off < 5.0 * sigma + 1.5 * spacing;
   border.concave = rise > 0.0 && angle > kCurved;
   border.joins = !border.concave && meets && border.links >= kFewestBorderLinks;
 }

@@ -79,7 +79,7 @@ void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v) {
   level.outline = convex_outline(std::move(corners));
 }
 
-/// Points that stand on each level: above it, within its outline, and on no level itself. They are counted as the
+/// Points that stand on each level: it is the highest below them, and they are on no level themselves. They are counted as the
 /// camera sees them: what it was pointed at matters, not what looms behind.
 void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, const Vec3& v) {
   std::vector<char> flat(scan.faces.faces.size(), 0);
@@ -90,11 +90,16 @@ void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, c
     const int f = scan.faces.face_of_point[i];
     if (f >= 0 && flat[f]) continue;
     const Vec2 place(u.dot(scan.points[i]), v.dot(scan.points[i]));
+    Level* carrier = nullptr;  // the highest that is below
+    double least = kCarryHeight;
     for (Level& level : levels) {
       const double height = level.plane.signed_distance(scan.points[i]);
-      if (height > 6.0 * scan.graph.sigma[i] && height < kCarryHeight && inside_outline(level.outline, place, 0.0))
-        level.carried += 1.0;
+      if (height > 6.0 * scan.graph.sigma[i] && height < least && inside_outline(level.outline, place, 0.0)) {
+        least = height;
+        carrier = &level;
+      }
     }
+    if (carrier) carrier->carried += 1.0;
   }
 }
 
