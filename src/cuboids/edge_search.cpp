@@ -106,7 +106,7 @@ std::vector<EdgeSample> visible_edge_samples(const OrientedBox& box, const RgbdF
       for (const double side_j : {-1.0, 1.0}) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         if (!faces_camera(i, side_i) && !faces_camera(j, side_j)) continue;
-        EdgeSample sample{i, j, k, side_i, side_j, 0};
+        EdgeSample sample{i, j, k, side_i, side_j, 0, faces_camera(i, side_i) && faces_camera(j, side_j)};
         const auto world = [&](double share) {
           sample.share = share;
           return Vec3(box.center + box.axes * local_point(sample, -box.half_size, box.half_size));

@@ -29,6 +29,7 @@ class ImageEdges {
 struct EdgeSample {
   int i = 0, j = 1, k = 2;
   double side_i = 1, side_j = 1, share = 0.5;
+  bool crease = false;  ///< both sides are seen
   bool same_edge(const EdgeSample& o) const { return k == o.k && side_i == o.side_i && side_j == o.side_j; }
 };
 Vec3 local_point(const EdgeSample& sample, const Vec3& low, const Vec3& high);

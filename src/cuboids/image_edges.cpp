@@ -18,6 +18,7 @@ constexpr double kPixelError = 1.5;       // pixels, of an edge
 constexpr double kLargestShift = 8.0;     // pixels between colour and depth
 constexpr double kShiftCost = 0.04;       // pixels of mean distance a pixel of shift has to gain
 constexpr double kFewestSamples = 12;
+constexpr std::size_t kFewestCreaseSamples = 30;
 constexpr double kInside = 1.5, kOutside = 8.0;  // σ of a side that was seen to end, in mm in and out: measured edges
                                                  // fall short, but points that were measured are there
 constexpr double kSeenSide = 1.5;                // mm, σ of a side that was seen as a face
@@ -189,10 +190,11 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
   std::vector<Vec2> pixels;
   for (std::size_t k = 0; k < cuboids.size(); ++k) {
     samples[k] = visible_edge_samples(cuboids[k].box, frame, seen.T_world_camera, view);
-    for (const EdgeSample& sample : samples[k]) pixels.push_back(problem.pixel(cuboids[k].box, sample));
+    // Only where two seen sides meet: depth falls short at silhouettes, on one side more than on the other.
+    for (const EdgeSample& sample : samples[k])
+      if (sample.crease) pixels.push_back(problem.pixel(cuboids[k].box, sample));
   }
-  if (pixels.empty()) return;
-  problem.shift = registration_shift(problem, pixels);
+  if (pixels.size() >= kFewestCreaseSamples) problem.shift = registration_shift(problem, pixels);
   context.check();
 
   std::vector<std::vector<Vec3>> points(cuboids.size());

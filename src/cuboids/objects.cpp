@@ -16,8 +16,9 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kFewestFacePoints = 30;
-constexpr std::size_t kFewestPoints = 120;    // of an object
+constexpr std::size_t kFewestPoints = 80;     // of an object
 constexpr std::size_t kFewPoints = 500;         // so few may be a strip along an edge
+constexpr double kStrip = 8.0;                 // widths, in spacing
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
 constexpr double kCurved = 30.0;              // degrees that neighbouring pieces of a hollow surface may differ by
 constexpr std::size_t kFewestBorderLinks = 4;
@@ -140,7 +141,7 @@ bool is_debris(const Observation& seen, const std::vector<int>& part) {
     for (const int i : part) mean += seen.points[i] / static_cast<double>(part.size());
     for (const int i : part) second += (seen.points[i] - mean) * (seen.points[i] - mean).transpose() / static_cast<double>(part.size());
     const double width = std::sqrt(12.0 * std::max(Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvalues()[1], 0.0));
-    if (width < kSliver * 1.5 * std::max(seen.graph.sigma[part.front()], seen.graph.spacing[part.front()])) return true;
+    if (width < kStrip * seen.graph.spacing[part.front()]) return true;
   }
   for (const Support& support : seen.supports) {
     std::vector<double> height;

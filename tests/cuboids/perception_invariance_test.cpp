@@ -71,7 +71,7 @@ TEST(Invariance, ATurnAboutGravityTurnsTheBoxes) {
     Scene scene;
     const Vec3 pivot(0.0, 0.8, 0.0);
     const Mat3 rotation = Eigen::AngleAxisd(radians(turn), Vec3::UnitZ()).toRotationMatrix();
-    scene.boxes = {upright(-0.15, 0.8, 0, {0.2, 0.15, 0.1}, 5), upright(-0.15, 0.8, 0.1, {0.12, 0.1, 0.06}, 35),
+    scene.boxes = {upright(-0.15, 0.8, 0, {0.2, 0.15, 0.1}, 5), upright(-0.15, 0.8, 0.1, {0.1, 0.07, 0.06}, 35),
                    upright(0.18, 0.8, 0, {0.1, 0.12, 0.12}, -20)};
     for (OrientedBox& box : scene.boxes) {
       box.center = rotation * (box.center - pivot) + pivot;
@@ -163,7 +163,7 @@ TEST(Time, TwoHundredObjects) {
   scene.height = 1.5;
   scene.pitch = radians(60.0);
   for (int i = 0; i < 200; ++i)
-    scene.boxes.push_back(upright(-0.665 + 0.07 * (i % 20), 0.45 + 0.09 * (i / 20), 0, {0.04, 0.04, 0.03}, 7.0 * i));
+    scene.boxes.push_back(upright(-0.665 + 0.07 * (i % 20), 0.45 + 0.09 * (i / 20), 0, {0.05, 0.05, 0.04}, 7.0 * i));
   const RgbdFrame frame = render(scene);
   const auto start = std::chrono::steady_clock::now();
   const Perceived p = perceive(frame);

@@ -141,7 +141,7 @@ TEST(Boxes, ASlantedOneGetsItsOwnAxes) {
 
 TEST(Boxes, AnLShapedThingBecomesTwoSlabsOutOfFreeSpace) {
   Scene scene;
-  scene.boxes = {upright(-0.05, 0.8, 0, {0.1, 0.1, 0.2}, 0), upright(0.05, 0.8, 0, {0.1, 0.1, 0.08}, 0)};
+  scene.boxes = {upright(-0.05, 0.8, 0, {0.1, 0.1, 0.2}, 0), upright(0.05, 0.8, 0, {0.1, 0.1, 0.05}, 0)};
   RgbdFrame frame = render(scene);
   frame.masks.assign(frame.depth.size(), 0);
   Context context;
