@@ -149,7 +149,7 @@ BoxAxes box_axes(const Observation& seen, std::span<const int> points, std::span
     yaw = rectangle_turn(flat);
     result.yaw_information = kEnoughInformation / 4.0;
   }
-  result.axes = turned(yaw);
+  result.axes = turned(std::remainder(yaw, 0.5 * kPi));
   return result;
 }
 

@@ -17,6 +17,7 @@ constexpr double kReach[kRounds] = {10.0, 6.0, 4.0, 4.0};  // pixels to an edge
 constexpr double kPixelError = 1.5;       // pixels, of an edge
 constexpr double kLargestShift = 8.0;     // pixels between colour and depth
 constexpr double kShiftCost = 0.04;       // pixels of mean distance a pixel of shift has to gain
+constexpr double kMostRegistered = 2.0;   // pixels of mean distance
 constexpr double kFewestSamples = 12;
 constexpr std::size_t kFewestCreaseSamples = 30;
 constexpr double kInside = 1.5, kOutside = 8.0;  // σ of a side that was seen to end, in mm in and out: measured edges
@@ -136,7 +137,8 @@ Vec2 registration_shift(const Problem& problem, const std::vector<Vec2>& pixels)
       const double cost = sum / static_cast<double>(pixels.size()) + kShiftCost * std::hypot(du, dv);
       if (cost < best_cost) best_cost = cost, best = {du, dv};
     }
-  return best;
+  // Faint creases are in no picture's edges; then there is nothing to register.
+  return best_cost < kMostRegistered ? best : Vec2(Vec2::Zero());
 }
 
 Change align(const Problem& problem, const OrientedBox& box, const std::vector<EdgeSample>& samples, const DepthResidual& depth) {

@@ -78,8 +78,8 @@ inline RgbdFrame render(const Scene& scene, std::uint64_t seed = 1) {
       if (std::isfinite(depth)) depth += scene.noise * depth * depth * random.normal();
       frame.depth.push_back(std::isfinite(depth) ? static_cast<float>(depth) : 0.0f);
       owner.push_back(what / 8);
-      const auto shade = static_cast<std::uint8_t>(what <= 0 ? 90 : 40 + (what * 53) % 200);
-      frame.color.push_back({shade, static_cast<std::uint8_t>(what <= 0 ? 90 : 255 - shade), static_cast<std::uint8_t>((what / 8 * 71) % 256)});
+      const auto shade = static_cast<std::uint8_t>(what <= 0 ? 60 : 110 + 26 * (what % 8));
+      frame.color.push_back({shade, shade, static_cast<std::uint8_t>((what / 8 * 71) % 256)});
     }
   const std::vector<float> full = frame.depth;
   for (int v = 0; v < scene.image_height && scene.dropout > 0; ++v)
@@ -89,7 +89,7 @@ inline RgbdFrame render(const Scene& scene, std::uint64_t seed = 1) {
           const int x = u + k * dx, y = v + k * dy;
           if (x < 0 || y < 0 || x >= scene.width || y >= scene.image_height) continue;
           const std::size_t i = static_cast<std::size_t>(v) * scene.width + u, j = static_cast<std::size_t>(y) * scene.width + x;
-          if (owner[i] > 0 && owner[i] != owner[j] && full[j] > full[i]) frame.depth[i] = 0.0f;
+          if (owner[i] > 0 && owner[i] != owner[j] && full[j] > full[i] + 0.02f) frame.depth[i] = 0.0f;
         }
   return frame;
 }
