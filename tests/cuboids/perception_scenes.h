@@ -79,7 +79,7 @@ inline RgbdFrame render(const Scene& scene, std::uint64_t seed = 1) {
       frame.depth.push_back(std::isfinite(depth) ? static_cast<float>(depth) : 0.0f);
       owner.push_back(what / 8);
       const auto shade = static_cast<std::uint8_t>(what <= 0 ? 60 : 110 + 26 * (what % 8));
-      frame.color.push_back({shade, shade, static_cast<std::uint8_t>((what / 8 * 71) % 256)});
+      frame.color.push_back({shade, shade, static_cast<std::uint8_t>((what / 8 * 120) % 256)});
     }
   const std::vector<float> full = frame.depth;
   for (int v = 0; v < scene.image_height && scene.dropout > 0; ++v)
