@@ -94,18 +94,27 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
   double least = limit;
   for (std::size_t checked = 0; checked < kDirections; ++checked) {
     const std::size_t k = bounds.take_worst();
-    for (double step = kMarginStep;; step *= 2.0) {
-      const double tried = std::min(least, bounds.high[k] - step);
-      if (tried <= 0.0) return 0.0;
-      const Vec3 push = tried * direction(k);
+    const auto stands_at = [&](double acceleration) {
+      const Vec3 push = acceleration * direction(k);
       const Balance pushed = balance(bodies, contacts, push - Vec3::UnitZ(), at_rest.forces, effort);
-      if (pushed.residual < stable_residual) {
-        least = tried;
-        break;
+      const bool stands = pushed.residual < stable_residual;
+      if (!stands) {
+        bounds.high[k] = acceleration;
+        bounds.lower(push, pushed, stable_residual);
       }
-      bounds.high[k] = tried;
-      bounds.lower(push, pushed, stable_residual);
+      return stands;
+    };
+    // Just below the bound, then farther and farther below it.
+    double low = std::min(least, bounds.high[k] - kMarginStep);
+    for (double step = kMarginStep; low > 0.0 && !stands_at(low); step *= 2.0)
+      low = std::min(low, bounds.high[k]) - step;
+    if (low <= 0.0) low = 0.0;
+    while (std::min(least, bounds.high[k]) - low > kMarginStep) {
+      const double middle = 0.5 * (low + std::min(least, bounds.high[k]));
+      if (stands_at(middle)) low = middle;
     }
+    least = low;
+    if (least == 0.0) return 0.0;
   }
   return least;
 }

@@ -48,7 +48,7 @@ struct Balance {
 /// When `balance` may stop early.
 struct Effort {
   double enough = 0;      ///< a residual with which it need go no further, though it is not the least
-  double certain = 1e-7;  ///< share of the sum of squares by which it may miss the least one
+  double certain = 1e-8;  ///< share of the sum of squares by which it may miss the least one
 };
 
 /// Minimises ‖Df + w‖ over forces in true friction cones (Eq. 4.2, 4.3), with forces in units of each body's weight
