@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+//
+// Minimises ½‖Df + w‖² over a product of friction cones by the proximal method of multipliers: round k minimises
+//   ψ(r) = ½‖r‖² − r·w + ‖Π(f − σDᵀr)‖² / 2σ,   Π = projection on the cones,
+// over the residual r alone, by Newton's method with the generalised Jacobian of Π (Qi & Sun, "A nonsmooth version of
+// Newton's method", 1993; Rockafellar, "Augmented Lagrangians and applications of the proximal point algorithm", 1976),
+// and then replaces f by that projection. The matrix I + σ D Π' Dᵀ has a 6×6 block a body and a pair that touches, so
+// a step costs little more than looking at each contact, however many of them press. The round cone needs no polygon.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "cuboids/block_cholesky.h"
+#include "cuboids/friction_cone.h"
+#include "cuboids/statics.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kFirstSigma = 100.0, kSigmaGrowth = 10.0, kLargestSigma = 1e5;
+constexpr int kRounds = 60, kSteps = 80;
+constexpr double kBalanced = 1e-11;  ///< residual of a body
+constexpr double kMinimal = 1e-12;   ///< gradient of ψ
+constexpr double kCertain = 1e-9;    ///< share of ‖r‖² by which the dual bound may miss it
+
+using Vector = Eigen::VectorXd;
+
+/// How a contact's force (in its own unit) acts on one of its bodies.
+struct Lever {
+  int body = -1;     ///< of the component, −1 = static
+  double scale = 0;  ///< signed, 1/weight
+  Vec3 arm;          ///< from the centre, in half sizes
+};
+
+struct ConeContact {
+  Lever lever[2];
+  Vec3 normal;
+  double friction = 0, unit = 0;  ///< N
+  int index = -1;  ///< of the caller's contact
+  int pair = -1;   ///< of bodies, −1 = one is static
+};
+
+/// Movable bodies that touch each other, directly or through others.
+struct Component {
+  std::vector<int> bodies;
+  std::vector<ConeContact> contacts;
+  std::vector<std::pair<int, int>> pairs;
+};
+
+Vec3 felt_by(const ConeContact& c, const Vector& r) {  // Dᵀr
+  Vec3 sum = Vec3::Zero();
+  for (const Lever& l : c.lever)
+    if (l.body >= 0)
+      sum += l.scale * (r.segment<3>(6 * l.body) + Vec3(r.segment<3>(6 * l.body + 3)).cross(l.arm));
+  return sum;
+}
+
+void add_force(const ConeContact& c, const Vec3& force, Vector& r) {  // r += Df
+  for (const Lever& l : c.lever)
+    if (l.body >= 0) {
+      r.segment<3>(6 * l.body) += l.scale * force;
+      r.segment<3>(6 * l.body + 3) += l.scale * l.arm.cross(force);
+    }
+}
+
+Mat3 cross_matrix(const Vec3& v) {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+BlockCholesky::Block block_of(const Lever& a, const Lever& b, const Mat3& m, const Mat3& cross_a, const Mat3& cross_b) {
+  BlockCholesky::Block block;
+  const Mat3 left = cross_a * m, right = m * cross_b.transpose();
+  block << m, right, left, cross_a * right;
+  return a.scale * b.scale * block;
+}
+
+class Solver {
+ public:
+  Solver(const Component& component, const Vec3& gravity)
+      : contacts_(component.contacts), matrix_(static_cast<int>(component.bodies.size()), component.pairs),
+        load_(6 * component.bodies.size()), force_(contacts_.size(), Vec3::Zero()), next_(contacts_.size()) {
+    for (std::size_t i = 0; i < component.bodies.size(); ++i) load_.segment<6>(6 * i) << gravity, Vec3::Zero();
+  }
+
+  void start_from(std::span<const Vec3> forces) {
+    for (std::size_t c = 0; c < contacts_.size(); ++c)
+      force_[c] = project_to_cone(forces[contacts_[c].index] / contacts_[c].unit, contacts_[c].normal,
+                                  contacts_[c].friction).force;
+  }
+
+  /// Returns the residual Df + w; force_ then holds f.
+  Vector solve() {
+    Vector r = residual_of(force_), exact = r;
+    double sigma = kFirstSigma;
+    for (int round = 0; round < kRounds; ++round) {
+      minimise(r, sigma);
+      double change = 0, size = 0;
+      for (std::size_t c = 0; c < contacts_.size(); ++c) {
+        change += (next_[c].force - force_[c]).squaredNorm();
+        size += next_[c].force.squaredNorm();
+        force_[c] = next_[c].force;
+      }
+      exact = residual_of(force_);
+      // Dᵀr misses the dual cone by change/σ at most, so ‖r‖² is that much times ‖f‖ from its least value.
+      const double miss = std::sqrt(change * size) / sigma;
+      if (exact.norm() < kBalanced || miss <= kCertain * exact.squaredNorm()) break;
+      sigma = std::min(sigma * kSigmaGrowth, kLargestSigma);
+    }
+    return exact;
+  }
+
+  const std::vector<Vec3>& forces() const { return force_; }
+
+ private:
+  Vector residual_of(const std::vector<Vec3>& forces) const {
+    Vector r = load_;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) add_force(contacts_[c], forces[c], r);
+    return r;
+  }
+
+  /// ψ at r; sets next_ to the projections and `gradient`.
+  double evaluate(const Vector& r, double sigma, Vector& gradient) {
+    gradient = r - load_;
+    double sum = 0;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const ConeContact& k = contacts_[c];
+      next_[c] = project_to_cone(force_[c] - sigma * felt_by(k, r), k.normal, k.friction);
+      if (next_[c].is_zero) continue;
+      sum += next_[c].force.squaredNorm();
+      add_force(k, -next_[c].force, gradient);
+    }
+    return 0.5 * r.squaredNorm() - r.dot(load_) + sum / (2.0 * sigma);
+  }
+
+  void assemble(double sigma) {
+    matrix_.set_identity();
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (next_[c].is_zero) continue;
+      const ConeContact& k = contacts_[c];
+      const Mat3 m = sigma * next_[c].derivative;
+      const Mat3 cross[2] = {cross_matrix(k.lever[0].arm), cross_matrix(k.lever[1].arm)};
+      for (int i = 0; i < 2; ++i)
+        if (k.lever[i].body >= 0)
+          matrix_.diagonal(k.lever[i].body) += block_of(k.lever[i], k.lever[i], m, cross[i], cross[i]);
+      if (k.pair < 0) continue;
+      const int i = matrix_.is_transposed(k.pair) ? 1 : 0;
+      matrix_.below(k.pair) += block_of(k.lever[i], k.lever[1 - i], m, cross[i], cross[1 - i]);
+    }
+  }
+
+  void minimise(Vector& r, double sigma) {
+    Vector gradient(r.size()), step(r.size()), trial_gradient(r.size());
+    double value = evaluate(r, sigma, gradient);
+    for (int i = 0; i < kSteps && gradient.norm() > kMinimal; ++i) {
+      assemble(sigma);
+      if (!matrix_.factor()) break;
+      step = -gradient;
+      matrix_.solve(step);
+      const double slope = gradient.dot(step);
+      double length = 1.0, trial_value = 0;
+      for (; length > 1e-4; length *= 0.5) {
+        trial_value = evaluate(r + length * step, sigma, trial_gradient);
+        // Near the minimum ψ is all rounding; there the gradient tells.
+        if (trial_value <= value + 1e-4 * length * slope || trial_gradient.norm() < 0.5 * gradient.norm()) break;
+      }
+      if (!(length > 1e-4)) {
+        evaluate(r, sigma, gradient);
+        break;
+      }
+      r += length * step;
+      value = trial_value;
+      gradient.swap(trial_gradient);
+    }
+  }
+
+  const std::vector<ConeContact>& contacts_;
+  BlockCholesky matrix_;
+  Vector load_;
+  std::vector<Vec3> force_;
+  std::vector<ConeProjection> next_;
+};
+
+/// The component of each body, −1 for static ones; returns how many there are.
+int number_components(std::span<const Body> bodies, std::span<const ContactPoint> contacts, std::vector<int>& of_body) {
+  std::vector<int> root(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) root[i] = static_cast<int>(i);
+  const auto find = [&](int i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  for (const ContactPoint& c : contacts) {
+    if (bodies[c.a].is_static || bodies[c.b].is_static) continue;
+    const int a = find(c.a), b = find(c.b);
+    root[std::max(a, b)] = std::min(a, b);
+  }
+  int count = 0;
+  of_body.assign(bodies.size(), -1);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (!bodies[i].is_static) of_body[i] = find(i) == static_cast<int>(i) ? count++ : of_body[find(i)];
+  return count;
+}
+
+ConeContact cone_contact(std::span<const Body> bodies, const std::vector<int>& local, const ContactPoint& c, int index) {
+  ConeContact k;
+  k.normal = c.normal;
+  k.friction = c.friction;
+  k.index = index;
+  double sum = 0;
+  for (int side = 0; side < 2; ++side) {
+    const int i = side == 0 ? c.a : c.b;
+    const Body& body = bodies[i];
+    if (body.is_static) continue;
+    k.lever[side] = {local[i], (side == 0 ? -1.0 : 1.0) / body.weight, (c.position - body.center) / body.half_size};
+    sum += 1.0 / (body.weight * body.weight);
+  }
+  k.unit = 1.0 / std::sqrt(sum);
+  for (Lever& l : k.lever) l.scale *= k.unit;
+  return k;
+}
+
+std::vector<Component> components_of(std::span<const Body> bodies, std::span<const ContactPoint> contacts) {
+  std::vector<int> of_body, local(bodies.size(), -1);
+  std::vector<Component> components(number_components(bodies, contacts, of_body));
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (of_body[i] < 0) continue;
+    if (!(bodies[i].weight > 0.0) || !(bodies[i].half_size > 0.0))
+      throw std::invalid_argument("a body that is not static needs weight and size");
+    local[i] = static_cast<int>(components[of_body[i]].bodies.size());
+    components[of_body[i]].bodies.push_back(static_cast<int>(i));
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const ContactPoint& p = contacts[c];
+    if (p.a == p.b || (bodies[p.a].is_static && bodies[p.b].is_static)) continue;
+    Component& component = components[std::max(of_body[p.a], of_body[p.b])];
+    ConeContact k = cone_contact(bodies, local, p, static_cast<int>(c));
+    if (k.lever[0].body >= 0 && k.lever[1].body >= 0) {
+      const std::pair<int, int> pair(k.lever[0].body, k.lever[1].body);
+      if (component.pairs.empty() || component.pairs.back() != pair) component.pairs.push_back(pair);
+      k.pair = static_cast<int>(component.pairs.size()) - 1;
+    }
+    component.contacts.push_back(k);
+  }
+  return components;
+}
+
+}  // namespace
+
+Balance balance(std::span<const Body> bodies, std::span<const ContactPoint> contacts, const Vec3& gravity,
+                std::span<const Vec3> start) {
+  Balance result;
+  result.forces.assign(contacts.size(), Vec3::Zero());
+  result.motion.assign(bodies.size(), Vec6::Zero());
+  for (const Component& component : components_of(bodies, contacts)) {
+    Solver solver(component, gravity);
+    if (start.size() == contacts.size()) solver.start_from(start);
+    const Vector r = solver.solve();
+    for (std::size_t i = 0; i < component.bodies.size(); ++i) {
+      const Vec6 part = r.segment<6>(6 * i);
+      result.motion[component.bodies[i]] = part;
+      result.residual = std::max({result.residual, part.head<3>().norm(), part.tail<3>().norm()});
+    }
+    for (std::size_t c = 0; c < component.contacts.size(); ++c)
+      result.forces[component.contacts[c].index] = component.contacts[c].unit * solver.forces()[c];
+  }
+  return result;
+}
+
+}  // namespace unseen::cuboids
