@@ -21,6 +21,7 @@ struct Command {
 
 /// Each adds its subcommand to `app`; `shell_command` is the whole command line, for the report.
 Command add_planes(CLI::App& app, const std::string& shell_command);
+Command add_cuboids(CLI::App& app, const std::string& shell_command);
 Command add_convert(CLI::App& app);
 Command add_view(CLI::App& app);
 Command add_synth_planes(CLI::App& synth);

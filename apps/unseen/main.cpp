@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
   CLI::App* evaluate = app.add_subcommand("evaluate", "Measure a result against truth");
   synth->require_subcommand(0, 1)->footer("Example:\n  unseen synth planes -o room --seed 7");
   evaluate->require_subcommand(0, 1)->footer("Example:\n  unseen evaluate planes OUT --truth house.obj");
-  const std::vector<Command> commands = {add_planes(app, shell_command({argv, argv + argc})), add_convert(app),
+  const std::string command = shell_command({argv, argv + argc});
+  const std::vector<Command> commands = {add_planes(app, command), add_cuboids(app, command), add_convert(app),
                                          add_synth_planes(*synth), add_synth_cuboids(*synth), add_evaluate_planes(*evaluate),
                                          add_view(app)};
   try {

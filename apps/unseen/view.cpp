@@ -8,12 +8,17 @@
 #include <memory>
 
 #include "commands.h"
+#include "cuboids.h"
 #include "session.h"
 #include "unseen/core/error.h"
 #include "unseen/io/describe.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/points.h"
+#include "unseen/io/rgbd.h"
+#include "unseen/io/sha256.h"
 #include "unseen/planes/options.h"
+#include "unseen/report/cuboids_result.h"
+#include "unseen/report/cuboids_scene.h"
 #include "unseen/report/page.h"
 #include "unseen/report/planes_scene.h"
 #include "write_text.h"
@@ -76,13 +81,37 @@ Shown planes_result(const std::filesystem::path& folder, const report::StoredRun
   return {report::planes_title(a, run.input), report::planes_scene(a, run.input, table, command, points)};
 }
 
+/// The frame that a result was made from, if it is still where it was; without it the page has neither depth nor
+/// photograph, and says so.
+RgbdFrame frame_of(const report::StoredRun& run, cuboids::Completion& c, Context& context) {
+  try {
+    if (!run.input.sha256.empty() && io::sha256(run.input.path, context) != run.input.sha256)
+      throw InputError(run.input.path, "sha256", "another content", "that of the run");
+    return io::read_rgbd_frame(run.input.path);
+  } catch (const InputError& error) {
+    c.summary.warnings.push_back(fmt::format("shown without depth and photograph: {}", error.what()));
+    context.warn(c.summary.warnings.back());
+    return {};
+  }
+}
+
+Shown cuboids_result(const std::filesystem::path& folder, const report::StoredRun& run, Context& context) {
+  cuboids::Completion c = report::read_cuboids_result(folder / "result.json");
+  CuboidsOptions options;
+  OptionTable table = options.table();
+  const std::string command = command_of(run, folder.string(), table);
+  const RgbdFrame frame = frame_of(run, c, context);
+  return {report::cuboids_title(run.input), report::cuboids_scene(c, run.input, table, command, frame)};
+}
+
 Shown read_result(const std::string& out, Context& context) {
   const std::filesystem::path folder(out), file = folder / "result.json";
   if (!std::filesystem::is_directory(folder)) throw InputError(out, "folder", "none", "the folder of a result");
   if (!std::filesystem::exists(file)) throw InputError(file.string(), "file", "none", "the result.json of a run");
   const report::StoredRun run = report::read_stored_run(file);
   if (run.capability == "planes") return planes_result(folder, run, context);
-  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\"");
+  if (run.capability == "cuboids") return cuboids_result(folder, run, context);
+  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\" or \"cuboids\"");
 }
 
 /// Shows a file in what the desktop opens pages with.
@@ -110,6 +139,7 @@ int run(Arguments& args) {
       scenes.push_back(std::move(shown.scene));
     }
   }
+  session.progress.warn(session.context.take_warnings());
   const std::filesystem::path standard = std::filesystem::path(args.first) / (scenes.size() == 1 ? "report.html" : "compare.html");
   const std::string page = args.page.empty() ? standard.string() : args.page;
   io::AtomicFile file(page);

@@ -19,10 +19,12 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFirstSigma = 100.0, kSigmaGrowth = 10.0, kLargestSigma = 1e5;
-constexpr int kRounds = 60, kSteps = 80;
-constexpr double kBalanced = 1e-11;  ///< residual of a body
-constexpr double kMinimal = 1e-12;   ///< gradient of ψ
-constexpr double kCertain = 1e-9;    ///< share of ‖r‖² by which the dual bound may miss it
+constexpr int kRounds = 60, kSteps = 200, kTries = 60;
+constexpr double kBalanced = 1e-11;  ///< residual
+constexpr double kMinimal = 1e-12;   ///< gradient of ψ, at least; per σ, what rounding leaves
+constexpr double kRounding = 1e-15;
+constexpr double kRough = 1e-2;      ///< share of a round's change in f/σ to which it need be solved
+constexpr double kCertain = 1e-7;    ///< share of ‖r‖² by which the dual bound may miss it
 
 using Vector = Eigen::VectorXd;
 
@@ -47,6 +49,12 @@ struct Component {
   std::vector<ConeContact> contacts;
   std::vector<std::pair<int, int>> pairs;
 };
+
+double largest_part(const Vector& r) {
+  double largest = 0;
+  for (Eigen::Index i = 0; i < r.size(); i += 3) largest = std::max(largest, r.segment<3>(i).norm());
+  return largest;
+}
 
 Vec3 felt_by(const ConeContact& c, const Vector& r) {  // Dᵀr
   Vec3 sum = Vec3::Zero();
@@ -92,21 +100,20 @@ class Solver {
   }
 
   /// Returns the residual Df + w; force_ then holds f.
-  Vector solve() {
+  Vector solve(const Effort& effort) {
     Vector r = residual_of(force_), exact = r;
     double sigma = kFirstSigma;
     for (int round = 0; round < kRounds; ++round) {
       minimise(r, sigma);
-      double change = 0, size = 0;
+      double size = 0;
       for (std::size_t c = 0; c < contacts_.size(); ++c) {
-        change += (next_[c].force - force_[c]).squaredNorm();
         size += next_[c].force.squaredNorm();
         force_[c] = next_[c].force;
       }
       exact = residual_of(force_);
       // Dᵀr misses the dual cone by change/σ at most, so ‖r‖² is that much times ‖f‖ from its least value.
-      const double miss = std::sqrt(change * size) / sigma;
-      if (exact.norm() < kBalanced || miss <= kCertain * exact.squaredNorm()) break;
+      const double miss = std::sqrt(change_ * size) / sigma;
+      if (largest_part(exact) < std::max(kBalanced, effort.enough) || miss <= effort.certain * exact.squaredNorm()) break;
       sigma = std::min(sigma * kSigmaGrowth, kLargestSigma);
     }
     return exact;
@@ -121,18 +128,17 @@ class Solver {
     return r;
   }
 
-  /// ψ at r; sets next_ to the projections and `gradient`.
-  double evaluate(const Vector& r, double sigma, Vector& gradient) {
+  /// Sets `gradient` to that of ψ at r, next_ to the projections, change_ to their squared distance from force_.
+  void evaluate(const Vector& r, double sigma, Vector& gradient) {
     gradient = r - load_;
-    double sum = 0;
+    change_ = 0;
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       const ConeContact& k = contacts_[c];
       next_[c] = project_to_cone(force_[c] - sigma * felt_by(k, r), k.normal, k.friction);
+      change_ += (next_[c].force - force_[c]).squaredNorm();
       if (next_[c].is_zero) continue;
-      sum += next_[c].force.squaredNorm();
       add_force(k, -next_[c].force, gradient);
     }
-    return 0.5 * r.squaredNorm() - r.dot(load_) + sum / (2.0 * sigma);
   }
 
   void assemble(double sigma) {
@@ -152,28 +158,44 @@ class Solver {
   }
 
   void minimise(Vector& r, double sigma) {
-    Vector gradient(r.size()), step(r.size()), trial_gradient(r.size());
-    double value = evaluate(r, sigma, gradient);
-    for (int i = 0; i < kSteps && gradient.norm() > kMinimal; ++i) {
+    Vector gradient(r.size()), step(r.size());
+    evaluate(r, sigma, gradient);
+    const double rounding = std::max(kMinimal, kRounding * sigma);
+    for (int i = 0; i < kSteps; ++i) {
+      if (gradient.norm() <= std::max(rounding, kRough * std::sqrt(change_) / sigma)) break;
       assemble(sigma);
       if (!matrix_.factor()) break;
       step = -gradient;
       matrix_.solve(step);
-      const double slope = gradient.dot(step);
-      double length = 1.0, trial_value = 0;
-      for (; length > 1e-4; length *= 0.5) {
-        trial_value = evaluate(r + length * step, sigma, trial_gradient);
-        // Near the minimum ψ is all rounding; there the gradient tells.
-        if (trial_value <= value + 1e-4 * length * slope || trial_gradient.norm() < 0.5 * gradient.norm()) break;
-      }
-      if (!(length > 1e-4)) {
-        evaluate(r, sigma, gradient);
-        break;
-      }
-      r += length * step;
-      value = trial_value;
-      gradient.swap(trial_gradient);
+      if (!walk(r, step, sigma, gradient)) break;
     }
+  }
+
+  /// Goes along a step to where ψ rises or falls less than half as steeply as at first; false if rounding hides where.
+  /// ψ is convex with sharp bends, some 10⁵ times as steep on one side, so halving a whole step would not get there.
+  bool walk(Vector& r, const Vector& step, double sigma, Vector& gradient) {
+    const double first = gradient.dot(step);
+    double low = 0.0, low_slope = first, high = 1.0, high_slope = 0.0, at = 1.0;
+    for (int i = 0; i < kTries; ++i) {
+      evaluate(r + at * step, sigma, gradient);
+      const double slope = gradient.dot(step);
+      if (std::abs(slope) <= -0.5 * first || (i == 0 && slope < 0.0)) {
+        r += at * step;
+        return true;
+      }
+      if (slope < 0.0) {
+        low = at;
+        low_slope = slope;
+      } else {
+        high = at;
+        high_slope = slope;
+      }
+      at = low - low_slope * (high - low) / (high_slope - low_slope);
+      // A secant alone creeps towards a bend.
+      if (i % 3 == 2 || !(at > low && at < high)) at = 0.5 * (low + high);
+    }
+    evaluate(r, sigma, gradient);
+    return false;
   }
 
   const std::vector<ConeContact>& contacts_;
@@ -181,6 +203,7 @@ class Solver {
   Vector load_;
   std::vector<Vec3> force_;
   std::vector<ConeProjection> next_;
+  double change_ = 0;
 };
 
 /// The component of each body, −1 for static ones; returns how many there are.
@@ -249,19 +272,17 @@ std::vector<Component> components_of(std::span<const Body> bodies, std::span<con
 }  // namespace
 
 Balance balance(std::span<const Body> bodies, std::span<const ContactPoint> contacts, const Vec3& gravity,
-                std::span<const Vec3> start) {
+                std::span<const Vec3> start, const Effort& effort) {
   Balance result;
   result.forces.assign(contacts.size(), Vec3::Zero());
   result.motion.assign(bodies.size(), Vec6::Zero());
   for (const Component& component : components_of(bodies, contacts)) {
     Solver solver(component, gravity);
     if (start.size() == contacts.size()) solver.start_from(start);
-    const Vector r = solver.solve();
-    for (std::size_t i = 0; i < component.bodies.size(); ++i) {
-      const Vec6 part = r.segment<6>(6 * i);
-      result.motion[component.bodies[i]] = part;
-      result.residual = std::max({result.residual, part.head<3>().norm(), part.tail<3>().norm()});
-    }
+    const Vector r = solver.solve(effort);
+    for (std::size_t i = 0; i < component.bodies.size(); ++i)
+      result.motion[component.bodies[i]] = r.segment<6>(6 * i);
+    result.residual = std::max(result.residual, largest_part(r));
     for (std::size_t c = 0; c < component.contacts.size(); ++c)
       result.forces[component.contacts[c].index] = component.contacts[c].unit * solver.forces()[c];
   }

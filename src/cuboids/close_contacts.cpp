@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <optional>
 
 #include "cuboids/complete.h"
@@ -9,6 +10,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kParallel = 0.99;       // cosine between a face's normal and that of a contact
+constexpr double kMostShrink = 0.4;      // of a size, by one face
 constexpr double kHiddenFreedom = 100.0; // variance of a face that was moved, against 1 of a seen one
 
 /// The face of a box that a contact with outward normal `n` acts on; none if it is an edge or a vertex.
@@ -54,7 +56,8 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
   double volume = 0.0;
   for (std::size_t i = 0; i < arrangement.boxes.size(); ++i) {
     Extension extension;
-    for (int face = 0; face < 6; ++face) extension[face] = moves[6 * i + face];
+    for (int face = 0; face < 6; ++face)
+      extension[face] = std::max(moves[6 * i + face], -kMostShrink * 2.0 * arrangement.boxes[i].half_size[face / 2]);
     arrangement.boxes[i] = extended(arrangement.boxes[i], extension);
     arrangement.solids[i] = solid_of(arrangement.boxes[i]);
     for (int face = 0; face < 6; ++face) arrangement.extension[i][face] += extension[face];

@@ -8,6 +8,8 @@
 #include "cuboids/problem.h"
 #include "cuboids/search.h"
 #include "unseen/core/context.h"
+#include "unseen/core/error.h"
+#include "unseen/core/rgbd_frame.h"
 #include "unseen/cuboids/options.h"
 #include "unseen/cuboids/types.h"
 
@@ -29,5 +31,23 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
 
 /// Lowers the residual by small moves of faces: hidden ones within their rooms, seen ones within noise (Eq. 4.4).
 void lower_residual(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+
+/// From boxes around what is visible (`result.cuboids`) to a scene that stands.
+void complete_boxes(const RgbdFrame& frame, const Options& options, Context& context, Completion& result);
+
+/// Lets `body` fill a result, and says so if it was stopped.
+template <typename Body>
+Completion run_cuboids(Context& context, Completion result, const Body& body) {
+  try {
+    body(result);
+  } catch (const Cancelled&) {
+    Summary summary = std::move(result.summary);
+    result = Completion();
+    result.summary = std::move(summary);
+    result.summary.status = Status::cancelled;
+  }
+  result.summary.warnings = context.take_warnings();
+  return result;
+}
 
 }  // namespace unseen::cuboids

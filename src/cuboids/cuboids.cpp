@@ -2,18 +2,11 @@
 // Copyright (c) 2026 the unseen authors
 #include "unseen/cuboids/cuboids.h"
 
-#include <algorithm>
-
 #include "cuboids/complete.h"
-#include "cuboids/hypotheses.h"
 #include "cuboids/observation.h"
-#include "cuboids/search.h"
-#include "unseen/core/error.h"
 
 namespace unseen::cuboids {
 namespace {
-
-constexpr double kFarthest = 3.0;  // m: no face moves farther than this
 
 /// Boxes around what is visible, and the world that they are in.
 void perceive(const RgbdFrame& frame, const Options& options, Context& context, Completion& result) {
@@ -43,128 +36,13 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
   }
 }
 
-/// Writes the chosen arrangement into the result.
-void describe(const Problem& problem, const Choice& choice, const Arrangement& arrangement, Completion& result) {
-  const std::vector<Touch> touches = touching_pairs(problem, arrangement);
-  const Structure structure = structure_of(problem, arrangement, touches, choice.held);
-  const Balance b = balance(structure.bodies, structure.contacts);
-  const auto id = [&](int body) { return problem.is_support(body) ? problem.supports[body].id : problem.cuboid(body).id; };
-  for (std::size_t i = 0; i < result.cuboids.size(); ++i) result.cuboids[i].box = arrangement.boxes[i];
-  for (const auto& [a, c] : arrangement.fixed) {
-    Contact contact{id(a), id(c), ContactKind::fixed, Vec3::UnitZ(), {}, {}};
-    for (const Touch& touch : touches)
-      if (touch.a == a && touch.b == c) {
-        contact.direction = touch.interface.normal;
-        contact.points = touch.interface.points;
-      }
-    result.contacts.push_back(std::move(contact));
-  }
-  std::vector<int> contact_of_touch(touches.size(), -1);
-  for (std::size_t t = 0; t < touches.size(); ++t) {
-    const Touch& touch = touches[t];
-    if (std::find(arrangement.fixed.begin(), arrangement.fixed.end(), std::array{touch.a, touch.b}) != arrangement.fixed.end()) continue;
-    contact_of_touch[t] = static_cast<int>(result.contacts.size());
-    result.contacts.push_back({id(touch.a), id(touch.b), ContactKind::touching, touch.interface.normal, touch.interface.points,
-                               std::vector<Vec3>(touch.interface.points.size(), Vec3::Zero())});
-  }
-  std::vector<int> next(touches.size(), 0);
-  for (std::size_t p = 0; p < structure.contacts.size(); ++p) {
-    const int t = structure.touch_of_contact[p];
-    if (contact_of_touch[t] >= 0) result.contacts[contact_of_touch[t]].forces[next[t]++] = b.forces[p];
-  }
-  for (int i = 0; i < problem.bodies(); ++i)
-    if (choice.held[i]) result.unsupported.push_back(id(i));
-  result.fixed_contacts = static_cast<int>(arrangement.fixed.size());
-  result.extended_volume = arrangement.extended_volume;
-  result.stability.residual = b.residual;
-  result.stability.stable = b.residual < problem.stable_residual && result.unsupported.empty();
-  if (result.stability.stable) {
-    result.stability.margin = margin(structure.bodies, structure.contacts, problem.stable_residual);
-    result.stability.friction_needed = friction_needed(structure.bodies, structure.contacts, problem.stable_residual);
-  }
-}
-
-/// From boxes around what is visible to a scene that stands.
-void complete(const RgbdFrame& frame, const Options& options, Context& context, Completion& result) {
-  Summary& summary = result.summary;
-  const DepthView view(frame, result.T_world_camera, options.noise);
-  Problem problem;
-  problem.friction = options.friction;
-  problem.stable_residual = options.stable_residual;
-  {
-    const Stage stage(context, summary, "hypotheses");
-    std::vector<double> tolerance = contact_tolerance(view, result.cuboids);
-    summary.counts.emplace_back("fused", fuse_pieces(view, result.cuboids, tolerance));
-    summary.counts.emplace_back("by_symmetry", add_hidden_legs(view, result.cuboids, tolerance));
-    int id = static_cast<int>(result.supports.size());
-    for (Cuboid& cuboid : result.cuboids) {
-      cuboid.id = id++;
-      cuboid.box = cuboid.initial;
-    }
-    problem.supports = result.supports;
-    problem.cuboids = result.cuboids;
-    problem.tolerance = tolerance;
-    problem.hypotheses = propose_contacts(problem, find_rooms(view, result.cuboids, tolerance, kFarthest));
-    summary.counts.emplace_back("cuboids", result.cuboids.size());
-    summary.counts.emplace_back("hypotheses", problem.hypotheses.size());
-  }
-  Choice choice;
-  {
-    const Stage stage(context, summary, "search");
-    const Admissible admissible = [&](const Arrangement& a) {
-      for (std::size_t i = 0; i < a.boxes.size(); ++i)
-        if (a.boxes[i].volume() > problem.cuboids[i].initial.volume() &&
-            !in_hidden_space(view, problem.cuboids[i].initial, a.boxes[i], problem.tolerance[i]))
-          return false;
-      return true;
-    };
-    choice = search_contacts(problem, admissible, options.time_limit, context);
-    result.search = {choice.nodes, choice.pruned, choice.optimal};
-  }
-  const Stage stage(context, summary, "refinement");
-  Arrangement arrangement = arrange(problem, choice.chosen);
-  close_contacts(problem, touching_pairs(problem, arrangement), arrangement);
-  lower_residual(problem, choice.held, arrangement, context);
-  describe(problem, choice, arrangement, result);
-  summary.counts.emplace_back("contacts", result.contacts.size());
-  if (result.cuboids.empty()) {
-    summary.status = Status::infeasible;
-    context.warn("no object found on the supports");
-  } else if (!choice.optimal) {
-    summary.status = Status::time_limit;
-    context.warn("the search ran out of time: the best arrangement found by then is kept (--time-limit)");
-  }
-}
-
-template <typename Body>
-Completion run(Context& context, Completion result, const Body& body) {
-  try {
-    body(result);
-  } catch (const Cancelled&) {
-    Summary summary = std::move(result.summary);
-    result = Completion();
-    result.summary = std::move(summary);
-    result.summary.status = Status::cancelled;
-  }
-  result.summary.warnings = context.take_warnings();
-  return result;
-}
-
 }  // namespace
 
 Completion complete_cuboids(const RgbdFrame& frame, const Options& options, Context& context) {
-  return run(context, {}, [&](Completion& result) {
+  return run_cuboids(context, {}, [&](Completion& result) {
     perceive(frame, options, context, result);
-    complete(frame, options, context, result);
+    complete_boxes(frame, options, context, result);
   });
-}
-
-Completion complete_cuboids(const RgbdFrame& frame, const Completion& scene, const Options& options, Context& context) {
-  Completion start;
-  start.T_world_camera = scene.T_world_camera;
-  start.supports = scene.supports;
-  start.cuboids = scene.cuboids;
-  return run(context, std::move(start), [&](Completion& result) { complete(frame, options, context, result); });
 }
 
 }  // namespace unseen::cuboids

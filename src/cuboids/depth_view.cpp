@@ -33,9 +33,11 @@ DepthView::DepthView(const RgbdFrame& frame, const RigidTransform& T_world_camer
   height_ = std::clamp(static_cast<int>(std::sqrt(directions / 2.0)), kMinSphereHeight, kMaxSphereHeight);
   width_ = 2 * height_;
   depth_.assign(static_cast<std::size_t>(width_) * height_, 0.0f);
+  // The camera of a cloud stands at its viewpoint and is turned like the cloud.
+  const Vec3 viewpoint = frame.cloud.viewpoint.value_or(Vec3::Zero());
   for (const Vec3& p : frame.cloud.positions) {
     if (!p.allFinite()) continue;
-    const Pixel pixel = project(T_world_camera_ * p);
+    const Pixel pixel = project(T_world_camera_ * (p - viewpoint));
     if (pixel.index < 0) continue;
     float& depth = depth_[pixel.index];
     if (depth == 0.0f || pixel.depth < depth) depth = static_cast<float>(pixel.depth);

@@ -53,70 +53,91 @@ void propose_direct(Proposer& p, int a, int b, std::vector<FaceMove>& candidates
   }
 }
 
-/// Lengths by which a face moves until it covers the near end, the middle or the far end of a span along its normal.
-std::vector<double> spans(const OrientedBox& box, int face, const OrientedBox& other, const std::vector<Vec3>& targets,
-                          double overlap) {
-  const Vec3 direction = face_normal(box, face);
-  const double start = direction.dot(box.center) + box.half_size[face / 2];
-  const double middle = direction.dot(other.center);
-  const double half = (other.axes.transpose() * direction).cwiseAbs().dot(other.half_size);
-  std::vector<double> lengths = {middle - half + overlap - start, middle + half - start};
-  for (const Vec3& target : targets) lengths.push_back(direction.dot(target) - start);
-  std::sort(lengths.begin(), lengths.end());
-  return lengths;
-}
-
-/// Centres of mass that a carrier has to reach under: of the body, and of it with all that stands on it.
-std::vector<Vec3> loads_of(const Proposer& p, int body) {
+/// Bodies that stand on a body, directly or on others that do, and it itself.
+std::vector<int> load_of(const Proposer& p, int body) {
   std::vector<int> load = {body};
   for (std::size_t i = 0; i < load.size(); ++i)
     for (const int next : p.above[load[i]])
       if (std::find(load.begin(), load.end(), next) == load.end()) load.push_back(next);
+  return load;
+}
+
+double far_end(const OrientedBox& box, const Vec3& direction) {
+  return direction.dot(box.center) + (box.axes.transpose() * direction).cwiseAbs().dot(box.half_size);
+}
+
+/// Lengths by which a face of a carrier moves to bear another body just so, to reach under its centre of mass, under
+/// that of all its load, and under the far ends of both.
+std::vector<double> lengths_under(const Proposer& p, const OrientedBox& carrier, int face, int upper, double overlap) {
+  const Vec3 direction = face_normal(carrier, face);
+  const OrientedBox& box = p.box(upper);
   Vec3 sum = Vec3::Zero();
-  double mass = 0;
-  for (const int i : load) {
+  double mass = 0.0, end = 0.0;
+  for (const int i : load_of(p, upper)) {
     const double m = p.problem.cuboid(i).density * p.box(i).volume();
     sum += m * p.box(i).center;
+    end = mass == 0.0 ? far_end(p.box(i), direction) : std::max(end, far_end(p.box(i), direction));
     mass += m;
   }
-  return {p.box(body).center, sum / mass};
+  return {-far_end(box, -direction) + overlap, direction.dot(box.center), direction.dot(sum) / mass, far_end(box, direction), end};
+}
+
+/// The same for the upper body, which grows over its carrier: to its near end, middle and far end.
+std::vector<double> lengths_over(const OrientedBox& upper, int face, const OrientedBox& carrier, double overlap) {
+  const Vec3 direction = face_normal(upper, face);
+  return {-far_end(carrier, -direction) + overlap, direction.dot(carrier.center), far_end(carrier, direction)};
 }
 
 /// `mover` grows sideways so that `upper` comes to rest on `lower` (one of them is the mover); the gap that is left
-/// between them closes downward.
+/// between them closes downward, or upward.
 void propose_sideways(Proposer& p, int lower, int upper, int mover) {
-  const int other = mover == lower ? upper : lower;
   const double overlap = p.tolerance(lower, upper);
-  const auto down = level_face(p.box(upper), -1.0);
-  if (!down) return;
-  const std::vector<Vec3> targets = mover == lower ? loads_of(p, upper) : std::vector<Vec3>{p.box(lower).center};
+  const auto down = level_face(p.box(upper), -1.0), up = level_face(p.box(lower), 1.0);
+  if (!down || !up) return;
   for (int face = 0; face < 6; ++face) {
     if (std::abs(face_normal(p.box(mover), face).z()) > 1.0 - kFacesUp || p.room(mover, face) <= 0.0) continue;
+    std::vector<double> ends = mover == lower ? lengths_under(p, p.box(lower), face, upper, overlap)
+                                              : lengths_over(p.box(upper), face, p.box(lower), overlap);
+    std::sort(ends.begin(), ends.end());
     double last = 0.0;
-    for (const double length : spans(p.box(mover), face, p.box(other), targets, overlap)) {
+    for (const double end : ends) {
+      const double length = end - far_end(p.box(mover), face_normal(p.box(mover), face));
       if (length < last + 0.5 * overlap || length > p.room(mover, face)) continue;
       last = length;
       Extension extension{};
       extension[face] = length;
       const OrientedBox grown = extended(p.box(mover), extension);
-      const OrientedBox& from = mover == upper ? grown : p.box(upper);
-      const auto gap = mover == upper ? p.reach_of(from, *down, lower) : reach(from, *down, solid_of(grown));
+      const auto gap = mover == upper ? p.reach_of(grown, *down, lower) : reach(p.box(upper), *down, solid_of(grown));
       if (!gap) continue;
-      std::vector<FaceMove> moves = {{mover, face, length}};
-      if (*gap > overlap) {
-        if (*gap > p.room(upper, *down)) continue;
-        moves.push_back({upper, *down, *gap});
+      const FaceMove sideways = {mover, face, length};
+      if (*gap <= overlap) p.add(lower, upper, ContactKind::touching, {sideways});
+      else {
+        if (*gap <= p.room(upper, *down)) p.add(lower, upper, ContactKind::touching, {sideways, {upper, *down, *gap}});
+        if (*gap <= p.room(lower, *up)) p.add(lower, upper, ContactKind::touching, {sideways, {lower, *up, *gap}});
       }
-      p.add(lower, upper, ContactKind::touching, std::move(moves));
     }
   }
 }
 
+/// Who stands on whom if every box came straight down to what is nearest below it.
+std::vector<std::vector<int>> bodies_above(const Proposer& p) {
+  std::vector<std::vector<int>> above(p.problem.bodies());
+  for (int upper = p.problem.supports_count(); upper < p.problem.bodies(); ++upper) {
+    const auto down = level_face(p.box(upper), -1.0);
+    if (!down) continue;
+    std::vector<std::pair<double, int>> below;
+    for (int lower = 0; lower < p.problem.bodies(); ++lower)
+      if (const auto gap = lower == upper ? std::nullopt : p.reach_of(p.box(upper), *down, lower)) below.emplace_back(*gap, lower);
+    std::sort(below.begin(), below.end());
+    for (const auto& [gap, lower] : below)
+      if (gap <= below.front().first + p.problem.tolerance[upper - p.problem.supports_count()]) above[lower].push_back(upper);
+  }
+  return above;
+}
+
 void propose_pair(Proposer& p, int a, int b, bool touches) {
   const bool support = p.problem.is_support(a);
-  if (touches) {
-    p.add(a, b, ContactKind::fixed, {});
-  }
+  if (touches) p.add(a, b, ContactKind::fixed, {});
   std::vector<FaceMove> moves;
   if (!touches) {
     propose_direct(p, b, a, moves);
@@ -138,14 +159,10 @@ void propose_pair(Proposer& p, int a, int b, bool touches) {
 
 std::vector<Hypothesis> propose_contacts(const Problem& problem, const Rooms& rooms) {
   const Arrangement initial = arrange(problem, {});
-  Proposer p{problem, rooms, initial.solids, std::vector<std::vector<int>>(problem.bodies()), {}};
+  Proposer p{problem, rooms, initial.solids, {}, {}};
+  p.above = bodies_above(p);
   std::vector<std::vector<char>> touches(problem.bodies(), std::vector<char>(problem.bodies(), 0));
-  for (const Touch& touch : touching_pairs(problem, initial)) {
-    touches[touch.a][touch.b] = 1;
-    if (std::abs(touch.interface.normal.z()) < kFacesUp || problem.is_support(touch.a)) continue;
-    const bool up = touch.interface.normal.z() > 0;
-    p.above[up ? touch.a : touch.b].push_back(up ? touch.b : touch.a);
-  }
+  for (const Touch& touch : touching_pairs(problem, initial)) touches[touch.a][touch.b] = 1;
   for (int a = 0; a < problem.bodies(); ++a)
     for (int b = std::max(a + 1, problem.supports_count()); b < problem.bodies(); ++b)
       propose_pair(p, a, b, touches[a][b]);

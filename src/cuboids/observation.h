@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cuboids/depth_view.h"
+#include "cuboids/point_graph.h"
 #include "unseen/core/context.h"
 #include "unseen/core/rgbd_frame.h"
 #include "unseen/cuboids/options.h"
@@ -22,6 +23,7 @@ struct Observation {
   std::vector<int> pixel_of_point;   ///< index into the depth image; empty for a fused cloud
   std::vector<int> support_of_point; ///< index into supports, −1 = none
   std::vector<int> point_of_pixel;   ///< −1 = none; empty for a fused cloud
+  PointGraph graph;                  ///< neighbours, normals (world) and noise of the points
 };
 
 /// The points of one object, or of one disjoint visible part of it.

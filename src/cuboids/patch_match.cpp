@@ -10,7 +10,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kRadius = PatchMatch::kRadius, kSide = 2 * kRadius + 1;
-constexpr int kWrongSurface = kSide * kSide * 3 * 40 * 40;  // as if every channel were off by 40
+constexpr int kWrongSurface = kSide * kSide * 3 * 80 * 80;  // as if every channel were off by 80
 constexpr std::size_t kEnoughSources = 50;                  // of a surface, or the guide says nothing about it
 constexpr double kSharpness = 20.0;  // of the votes: a mean over unlike patches blurs, and the blur then matches blur
 constexpr double kRimGain = 1.3;  // how much more a vote counts a pixel nearer to the rim (γ of Wexler et al.)

@@ -132,10 +132,22 @@ struct Painter {
     const Vec2 place = frame.camera.project(seen);
     const int u = static_cast<int>(std::lround(place.x())), v = static_cast<int>(std::lround(place.y()));
     if (u < 0 || v < 0 || u >= frame.camera.width || v >= frame.camera.height) return unseen;
+    // The rim of its face may round to a pixel of the background; then the neighbour that is its own counts.
+    const double within = tolerance(seen.z());
+    double least = kInfinite;
+    int own = -1;
+    for (int y = std::max(0, v - 1); y <= std::min(frame.camera.height - 1, v + 1); ++y)
+      for (int x = std::max(0, u - 1); x <= std::min(frame.camera.width - 1, u + 1); ++x) {
+        const int i = y * frame.camera.width + x;
+        const double away = (place - Vec2(x, y)).squaredNorm(), depth = frame.depth[i];
+        const bool fits = photo.owner[i] == cuboid && (!(depth > 0.0) || std::abs(depth - seen.z()) < within);
+        if (!fits || away >= least) continue;
+        least = away;
+        own = i;
+      }
+    if (own >= 0) return frame.color[own];
     const int pixel = v * frame.camera.width + u;
-    const double measured = frame.depth[pixel], within = tolerance(seen.z());
-    if (photo.owner[pixel] == cuboid && (!(measured > 0.0) || std::abs(measured - seen.z()) < within))
-      return sampled(frame, place.x(), place.y());
+    const double measured = frame.depth[pixel];
     if (photo.owner[pixel] != cuboid && measured > 0.0 && measured < seen.z() - within) return unseen;
     return std::nullopt;
   }

@@ -3,15 +3,56 @@
 #include "cuboids/statics.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace unseen::cuboids {
 namespace {
 
-constexpr int kDirections = 16;
+constexpr std::size_t kDirections = 16;
 constexpr double kMarginStep = 1e-3;    // g
 constexpr double kFrictionStep = 2e-3;  // of μ
+constexpr double kRough = 1e-4;  // Effort::certain: only falling or not counts
 constexpr double kNearHorizontal = 0.26;  // |n·up| below this: within 15° of horizontal
+
+Vec3 direction(std::size_t k) {
+  const double angle = 2.0 * kPi * static_cast<double>(k) / kDirections;
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+/// How large a push can be at most in each direction, by the collapses found so far: ‖r‖ is convex in the push, and
+/// the sum of the motions is its gradient.
+struct PushBounds {
+  explicit PushBounds(double limit) { high.fill(limit); }
+
+  /// The direction with the least bound among those not yet taken.
+  std::size_t take_worst() {
+    std::size_t worst = kDirections;
+    for (std::size_t k = 0; k < kDirections; ++k)
+      if (!taken[k] && (worst == kDirections || high[k] < high[worst])) worst = k;
+    taken[worst] = true;
+    return worst;
+  }
+
+  void lower(const Vec3& push, const Balance& collapse, double stable_residual) {
+    Vec3 sum = Vec3::Zero();
+    double norm = 0.0;
+    for (const Vec6& motion : collapse.motion) {
+      sum += motion.head<3>();
+      norm += motion.squaredNorm();
+    }
+    norm = std::sqrt(norm);
+    // ‖r‖ has to fall to what it is where its largest part, the residual, is just stable.
+    const double fall = norm - stable_residual * norm / collapse.residual;
+    for (std::size_t k = 0; k < kDirections; ++k) {
+      const double slope = sum.dot(direction(k)) / norm, here = sum.dot(push) / norm;
+      if (slope > 0.0) high[k] = std::min(high[k], std::max((here - fall) / slope, 0.0));
+    }
+  }
+
+  std::array<double, kDirections> high;
+  std::array<bool, kDirections> taken{};
+};
 
 }  // namespace
 
@@ -46,26 +87,25 @@ std::vector<Body> merge(std::span<const Body> bodies, std::span<const int> group
 
 double margin(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual,
               double limit) {
-  Balance last = balance(bodies, contacts);
-  if (!(last.residual < stable_residual)) return 0.0;
+  const Balance at_rest = balance(bodies, contacts);
+  if (!(at_rest.residual < stable_residual)) return 0.0;
+  const Effort effort{0.5 * stable_residual, kRough};
+  PushBounds bounds(limit + kMarginStep);
   double least = limit;
-  for (int k = 0; k < kDirections; ++k) {
-    const double angle = 2.0 * kPi * k / kDirections;
-    const Vec3 sideways(std::cos(angle), std::sin(angle), 0.0);
-    std::vector<Vec3> start = last.forces;
-    const auto stands_at = [&](double acceleration) {
-      Balance pushed = balance(bodies, contacts, -Vec3::UnitZ() + acceleration * sideways, start);
-      const bool stands = pushed.residual < stable_residual;
-      if (stands) start = std::move(pushed.forces);
-      return stands;
-    };
-    if (stands_at(least)) continue;
-    double low = 0.0, high = least;
-    while (high - low > kMarginStep) {
-      const double middle = 0.5 * (low + high);
-      (stands_at(middle) ? low : high) = middle;
+  for (std::size_t checked = 0; checked < kDirections; ++checked) {
+    const std::size_t k = bounds.take_worst();
+    for (double step = kMarginStep;; step *= 2.0) {
+      const double tried = std::min(least, bounds.high[k] - step);
+      if (tried <= 0.0) return 0.0;
+      const Vec3 push = tried * direction(k);
+      const Balance pushed = balance(bodies, contacts, push - Vec3::UnitZ(), at_rest.forces, effort);
+      if (pushed.residual < stable_residual) {
+        least = tried;
+        break;
+      }
+      bounds.high[k] = tried;
+      bounds.lower(push, pushed, stable_residual);
     }
-    least = low;
   }
   return least;
 }
@@ -73,11 +113,12 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
 double friction_needed(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual) {
   double high = 0.0;
   for (const ContactPoint& c : contacts) high = std::max(high, c.friction);
+  const Effort effort{0.5 * stable_residual, kRough};
   std::vector<Vec3> start;
   std::vector<ContactPoint> slippery(contacts.begin(), contacts.end());
   const auto stands_with = [&](double friction) {
     for (std::size_t i = 0; i < contacts.size(); ++i) slippery[i].friction = std::min(contacts[i].friction, friction);
-    Balance tried = balance(bodies, slippery, -Vec3::UnitZ(), start);
+    Balance tried = balance(bodies, slippery, -Vec3::UnitZ(), start, effort);
     const bool stands = tried.residual < stable_residual;
     if (stands) start = std::move(tried.forces);
     return stands;

@@ -45,13 +45,19 @@ struct Balance {
   }
 };
 
+/// When `balance` may stop early.
+struct Effort {
+  double enough = 0;      ///< a residual with which it need go no further, though it is not the least
+  double certain = 1e-7;  ///< share of the sum of squares by which it may miss the least one
+};
+
 /// Minimises ‖Df + w‖ over forces in true friction cones (Eq. 4.2, 4.3), with forces in units of each body's weight
 /// and torques in weight × half size. `gravity` is the acceleration in units of g (up is −gravity at rest), so that a
 /// tilt or a push can be asked for; default straight down. Static bodies bear anything. `start` may hold the forces of
 /// a similar problem with the same contacts, which makes it faster and changes the result by rounding only.
 /// Throws std::invalid_argument for bodies without weight or size that are not static.
 Balance balance(std::span<const Body> bodies, std::span<const ContactPoint> contacts,
-                const Vec3& gravity = -Vec3::UnitZ(), std::span<const Vec3> start = {});
+                const Vec3& gravity = -Vec3::UnitZ(), std::span<const Vec3> start = {}, const Effort& effort = {});
 
 /// Bodies of one group (equal numbers) become one: fixed contacts. Gives the merged bodies, `group` being their index;
 /// a group with a static body is static. half_size is that of the whole.

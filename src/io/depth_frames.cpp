@@ -54,7 +54,15 @@ RigidTransform read_pose(const fs::path& path) {
   return pose;
 }
 
-Camera read_camera(const fs::path& path) {
+bool is_depth_image(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.size() > kStart.size() + kDepth.size() && name.compare(0, kStart.size(), kStart) == 0 &&
+         name.compare(name.size() - kDepth.size(), kDepth.size(), kDepth) == 0;
+}
+
+}  // namespace
+
+Camera read_intrinsics_text(const fs::path& path) {
   const std::vector<double> k = read_numbers(path, 9);
   Camera camera;
   camera.fx = k[0];
@@ -68,21 +76,13 @@ Camera read_camera(const fs::path& path) {
   return camera;
 }
 
-bool is_depth_image(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name.size() > kStart.size() + kDepth.size() && name.compare(0, kStart.size(), kStart) == 0 &&
-         name.compare(name.size() - kDepth.size(), kDepth.size(), kDepth) == 0;
-}
-
-}  // namespace
-
 bool is_depth_folder(const fs::path& folder) {
   return fs::is_regular_file(folder / kIntrinsics);
 }
 
 DepthFolder read_depth_folder(const fs::path& folder, int frame_step) {
   DepthFolder result;
-  result.camera = read_camera(folder / kIntrinsics);
+  result.camera = read_intrinsics_text(folder / kIntrinsics);
   std::vector<fs::path> images;
   for (const auto& entry : fs::directory_iterator(folder))
     if (is_depth_image(entry.path())) images.push_back(entry.path());

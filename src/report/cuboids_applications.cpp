@@ -2,15 +2,19 @@
 // Copyright (c) 2026 the unseen authors
 #include "unseen/report/cuboids_applications.h"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
-#include "report/json_read.h"
+#include <algorithm>
+#include <iterator>
+
+#include "io/json_field.h"
 #include "report/json_write.h"
 #include "unseen/core/error.h"
 
 namespace unseen::report {
 namespace {
+
+using io::JsonField;
 
 constexpr double kFarthest = 100.0;  // m
 constexpr std::size_t kMostEdits = 1000, kLargestId = 1'000'000;
@@ -59,7 +63,7 @@ Json matrix_of(const RigidTransform& T, double scale = 1.0) {
 }  // namespace
 
 std::vector<cuboids::PhotoEdit> parse_photo_edits(const std::string& text, const std::string& source) {
-  const nlohmann::json json = parse_json(text, source);
+  const nlohmann::json json = io::parse_json(text, source, "edits of a photograph");
   const JsonField root(json, source);
   refuse_unknown(root, {"edits"});
   const std::vector<JsonField> list = root["edits"].list();
@@ -100,6 +104,17 @@ std::string retrieval_json(const cuboids::Retrieval& retrieval, const std::vecto
                               {"scale", number(found.scale)},
                               {"T_world_model", matrix_of(found.T_world_model, found.scale)}});
   return text_of(json);
+}
+
+std::string mesh_ply(const TriangleMesh& mesh) {
+  std::string text = fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      mesh.vertices.size(), mesh.triangles.size());
+  auto out = std::back_inserter(text);
+  for (const Vec3& v : mesh.vertices) fmt::format_to(out, "{} {} {}\n", v.x(), v.y(), v.z());
+  for (const auto& t : mesh.triangles) fmt::format_to(out, "3 {} {} {}\n", t[0], t[1], t[2]);
+  return text;
 }
 
 }  // namespace unseen::report

@@ -73,6 +73,16 @@ Json result_header(const std::string& capability, const InputRecord& input, cons
   return json;
 }
 
+std::size_t count_of(const Summary& summary, std::string_view name) {
+  for (const auto& [key, value] : summary.counts)
+    if (key == name) return value;
+  return 0;
+}
+
+std::string summary_json(const Summary& summary) {
+  return text_of(summary_of(summary));
+}
+
 std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

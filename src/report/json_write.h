@@ -8,7 +8,7 @@
 #include "unseen/core/geometry.h"
 #include "unseen/core/options.h"
 #include "unseen/core/summary.h"
-#include "unseen/report/planes_result.h"
+#include "unseen/report/stored_run.h"
 
 namespace unseen::report {
 
@@ -21,6 +21,14 @@ Json number(double value);
 Json degrees_of(double radians);
 
 Json vector_of(const Vec3& v);
+
+/// An array of what `write(item, index)` makes of each item.
+template <class Items, class Write>
+Json list_of(const Items& items, Write write) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < items.size(); ++i) list.push_back(write(items[i], i));
+  return list;
+}
 
 /// What every file begins with: unseen, schema, capability, options.
 Json made_by(const std::string& capability, const OptionTable& options);

@@ -6,13 +6,6 @@
 namespace unseen::report {
 namespace {
 
-template <class Items, class Write>
-Json list_of(const Items& items, Write write) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < items.size(); ++i) list.push_back(write(items[i], i));
-  return list;
-}
-
 Json polygon_of(const planes::Polygon& polygon) {
   return list_of(polygon, [](const auto& ring, std::size_t) {
     return list_of(ring, [](const Vec3& p, std::size_t) { return vector_of(p); });
@@ -37,16 +30,6 @@ Json plane_of(const planes::ArrangedPlane& p, std::size_t id, bool two_dimension
 }
 
 }  // namespace
-
-std::size_t count_of(const Summary& summary, std::string_view name) {
-  for (const auto& [key, value] : summary.counts)
-    if (key == name) return value;
-  return 0;
-}
-
-std::string summary_json(const Summary& summary) {
-  return text_of(summary_of(summary));
-}
 
 std::string planes_json(const planes::Arrangement& a, const InputRecord& input, const OptionTable& options) {
   Json json = result_header("planes", input, options, a.summary);

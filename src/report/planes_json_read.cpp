@@ -2,48 +2,16 @@
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
-#include "report/json_read.h"
+#include "report/result_read.h"
 #include "unseen/core/error.h"
 #include "unseen/report/planes_result.h"
 
 namespace unseen::report {
 namespace {
 
-constexpr std::size_t kLargest = std::size_t{1} << 30;  ///< bytes of a result.json that is still read
-
-std::string read_text(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(path.string(), "", "a folder", "a file");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw InputError(path.string(), "", error.message(), "a file that can be read");
-  if (size > kLargest) throw InputError(path.string(), "", fmt::format("{} bytes", size), "at most 1 GiB");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path.string(), "", "no permission", "a file that can be read");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void check_ids(const std::vector<JsonField>& items) {
   for (std::size_t i = 0; i < items.size(); ++i)
     if (items[i]["id"].count() != i) items[i]["id"].fail(fmt::format("{}, its position", i));
-}
-
-Summary read_summary(const JsonField& json) {
-  Summary summary;
-  const std::string status = json["status"].text();
-  bool known = false;
-  for (const Status s : {Status::solved, Status::time_limit, Status::infeasible, Status::cancelled})
-    if (status == to_string(s)) summary.status = s, known = true;
-  if (!known) json["status"].fail("solved, time_limit, infeasible or cancelled");
-  for (const auto& [name, value] : json["seconds"].members())
-    summary.seconds.emplace_back(name, value.number(0));
-  for (const auto& [name, value] : json["energy"].members())
-    summary.energy.emplace_back(name, value.number());
-  for (const auto& [name, value] : json["counts"].members()) summary.counts.emplace_back(name, value.count());
-  for (const JsonField& warning : json["warnings"].list()) summary.warnings.push_back(warning.text());
-  return summary;
 }
 
 planes::ArrangedPlane read_plane(const JsonField& json, const planes::Arrangement& a) {
@@ -132,20 +100,8 @@ planes::Arrangement parse_planes_result(const std::string& text, const std::stri
   return a;
 }
 
-StoredRun read_stored_run(const std::filesystem::path& path) {
-  const nlohmann::json parsed = parse_json(read_text(path), path.string());
-  const JsonField json(parsed, path.string());
-  StoredRun run;
-  run.capability = json["capability"].text();
-  run.input.path = json["input"]["path"].text();
-  if (const JsonField sha = json["input"]["sha256"]; !sha.is_null()) run.input.sha256 = sha.text();
-  for (const auto& [name, field] : json["options"].members())
-    if (auto value = field.option()) run.options.emplace_back(name, std::move(*value));
-  return run;
-}
-
 planes::Arrangement read_planes_result(const std::filesystem::path& path) {
-  return parse_planes_result(read_text(path), path.string());
+  return parse_planes_result(read_result_text(path), path.string());
 }
 
 }  // namespace unseen::report

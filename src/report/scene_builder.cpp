@@ -134,6 +134,10 @@ Json SceneBuilder::vectors(std::span<const Vec3> values) {
   return floats(flat, 3);
 }
 
+Json SceneBuilder::quaternions(std::span<const float> values) { return floats(values, 4); }
+
+Json SceneBuilder::ranges(std::span<const float> values) { return floats(values, 6); }
+
 Json SceneBuilder::scalars(std::span<const float> values) { return floats(values, 1); }
 
 Json SceneBuilder::coarse_scalars(std::span<const float> values, double low, double high) {
@@ -160,6 +164,18 @@ Json SceneBuilder::integers(std::span<const int> values) { return deltas(values,
 
 Json SceneBuilder::pairs(std::span<const std::array<int, 2>> values) {
   return deltas({values.empty() ? nullptr : values.front().data(), 2 * values.size()}, 2);
+}
+
+Json SceneBuilder::colors(std::span<const std::array<std::uint8_t, 3>> values) {
+  Json json = describe(values.size(), 3, "u8");
+  append(values.data(), values.size_bytes());
+  return json;
+}
+
+Json SceneBuilder::bytes(std::string_view values) {
+  Json json = describe(values.size(), 1, "u8");
+  append(values.data(), values.size());
+  return json;
 }
 
 Json SceneBuilder::triples(std::span<const std::array<int, 3>> values) {

@@ -30,11 +30,17 @@ class SceneBuilder {
   Json point_positions(std::span<const Vec3> world);
   Json positions(std::span<const Vec3> world);
   Json vectors(std::span<const Vec3> values);
+  Json quaternions(std::span<const float> values);  ///< four numbers each
+  Json ranges(std::span<const float> values);       ///< low and high corner, six numbers each
   Json scalars(std::span<const float> values);
   /// In 256 steps from low to high; what lies beyond counts as the nearer end.
   Json coarse_scalars(std::span<const float> values, double low, double high);
   Json integers(std::span<const int> values);
   Json pairs(std::span<const std::array<int, 2>> values);
+  /// sRGB, three bytes a colour.
+  Json colors(std::span<const std::array<std::uint8_t, 3>> values);
+  /// Bytes as they are, of a picture.
+  Json bytes(std::string_view values);
   Json triples(std::span<const std::array<int, 3>> values);
 
   /// The whole scene: gzip, in base64.

@@ -53,7 +53,9 @@ TEST(Inpaint, ContinuesARegularPattern) {
   const std::vector<Color> filled = inpaint(picture, 1, context);
   EXPECT_GT(psnr(filled, truth, [&](std::size_t i) { return picture.hole[i] != 0; }), 25.0);
   for (std::size_t i = 0; i < truth.size(); ++i)
-    if (!picture.hole[i]) ASSERT_EQ(filled[i], truth[i]);
+    if (!picture.hole[i]) {
+      ASSERT_EQ(filled[i], truth[i]);
+    }
   EXPECT_EQ(filled, inpaint(picture, 1, context));
 }
 
@@ -62,15 +64,15 @@ TEST(Inpaint, TakesPatchesOfTheSurfaceThatTheGuideNames) {
   picture.width = picture.height = 80;
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 80; ++x) {
-      picture.pixels.push_back(x < 40 ? Color{200, 20, 20} : Color{20, 20, 200});
+      picture.pixels.push_back(x < 40 ? Color{150, 100, 100} : Color{100, 100, 150});
       const bool hole = std::abs(x - 60) < 9 && std::abs(y - 40) < 9;
       picture.hole.push_back(hole);
       picture.guide.push_back(x < 40 || hole ? 0 : 1);
     }
   Context context;
-  EXPECT_GT(inpaint(picture, 1, context)[picture.at(60, 40)][0], 190);
+  EXPECT_GT(inpaint(picture, 1, context)[picture.at(60, 40)][0], 145);
   picture.guide.clear();
-  EXPECT_LT(inpaint(picture, 1, context)[picture.at(60, 40)][0], 30);
+  EXPECT_LT(inpaint(picture, 1, context)[picture.at(60, 40)][0], 105);
 }
 
 TEST(Inpaint, FillsSmoothlyWhatHasNoSources) {
@@ -91,14 +93,17 @@ TEST(PhotoEdit, RemovingShowsTheGroundBehind) {
   std::size_t holes = 0;
   for (std::size_t i = 0; i < picture.box.size(); ++i) {
     holes += edited.hole[i];
-    if (picture.box[i] == 0) ASSERT_TRUE(edited.hole[i]);
-    if (!edited.hole[i]) ASSERT_EQ(edited.pixels[i], picture.frame.color[i]);
+    if (picture.box[i] == 0) {
+      ASSERT_TRUE(edited.hole[i]);
+    }
+    if (!edited.hole[i]) {
+      ASSERT_EQ(edited.pixels[i], picture.frame.color[i]);
+    }
     ASSERT_EQ(edited.shown[i], -1);
     ASSERT_EQ(edited.shadow[i], 0.0f);
   }
   const auto in_hole = [&](std::size_t i) { return edited.hole[i] != 0; };
-  const double mean_joints = psnr(std::vector<Color>(picture.box.size(), {163, 150, 133}), background.frame.color, in_hole);
-  EXPECT_GT(psnr(edited.pixels, background.frame.color, in_hole), mean_joints + 2.0);  // better than one colour
+  EXPECT_GT(psnr(edited.pixels, background.frame.color, in_hole), 22.0);  // one colour for all: 15
   EXPECT_LT(holes, 1.25 * std::count(picture.box.begin(), picture.box.end(), 0));
 }
 
@@ -121,6 +126,8 @@ TEST(PhotoEdit, MovingPutsItWhereTheCameraModelSays) {
       const Vec3 local = moved.axes.transpose() * (p - moved.center);
       int axis = 0;
       (local.cwiseAbs() - moved.half_size).maxCoeff(&axis);
+      for (int k = 0; k < 3; ++k)  // not at its edges
+        if (k != axis && std::abs(local[k]) > moved.half_size[k] - 0.01) return false;
       const Vec3 normal = box.axes.col(axis) * (local[axis] > 0 ? 1.0 : -1.0);
       return normal.dot(pose().translation - (box.center + box.axes * local)) > 0.05;
     };
@@ -142,7 +149,9 @@ TEST(PhotoEdit, WhatStandsInFrontStaysAsItIs) {
     if (truth.box[i] == 1) {
       ++front;
       shaded += edited.pixels[i] != picture.frame.color[i];
-      if (edited.shadow[i] == 0.0f && edited.shown[i] < 0) ASSERT_EQ(edited.pixels[i], picture.frame.color[i]);
+      if (edited.shadow[i] == 0.0f && edited.shown[i] < 0) {
+        ASSERT_EQ(edited.pixels[i], picture.frame.color[i]);
+      }
     }
   EXPECT_LT(shaded, front / 3);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "unseen/core/mesh.h"
 #include "unseen/cuboids/photo_edit.h"
 #include "unseen/cuboids/retrieval.h"
 #include "unseen/cuboids/scan_completion.h"
@@ -21,5 +22,8 @@ std::string scan_completion_json(const cuboids::ScanCompletion& completion, cons
 
 /// retrieved.json: the cuboids of the structure and the models, best first, with scores and transforms.
 std::string retrieval_json(const cuboids::Retrieval& retrieval, const std::vector<cuboids::RetrievalModel>& models);
+
+/// A mesh as PLY in text.
+std::string mesh_ply(const TriangleMesh& mesh);
 
 }  // namespace unseen::report

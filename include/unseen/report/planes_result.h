@@ -4,37 +4,12 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "unseen/core/options.h"
-#include "unseen/core/summary.h"
 #include "unseen/planes/types.h"
+#include "unseen/report/stored_run.h"
 
 namespace unseen::report {
-
-/// Which input a result was made from.
-struct InputRecord {
-  std::string path;    ///< as the caller gave it
-  std::string sha256;  ///< of its bytes, 64 hexadecimal digits; empty if it was never a file
-};
-
-/// How a result was made, as its result.json says.
-struct StoredRun {
-  std::string capability;
-  InputRecord input;
-  std::vector<std::pair<std::string, OptionInput>> options;  ///< those that have a value
-};
-
-/// Reads that part of a result.json of any capability. Throws InputError naming file and field.
-StoredRun read_stored_run(const std::filesystem::path& path);
-
-/// A count of the summary by its name, 0 if there is none.
-std::size_t count_of(const Summary& summary, std::string_view name);
-
-/// The summary as one JSON object, as it stands in result.json: status, seconds, energy, counts, warnings.
-std::string summary_json(const Summary& summary);
 
 /// The whole result.json of a planes run (docs/formats.md, docs/schema/planes.result.schema.json). Angles are
 /// in degrees, lengths in metres, numbers in the shortest form that reads back to the same bits. Throws

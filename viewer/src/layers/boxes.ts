@@ -72,9 +72,12 @@ export class BoxesLayer extends ColoredLayer {
     return { toWorld: new THREE.Matrix4().compose(a.c, a.q, new THREE.Vector3(1, 1, 1)), size: a.s };
   }
 
-  private range(i: number, size: THREE.Vector3, seen: boolean): [number[], number[]] {
-    if (seen && this.seen) return [[...this.seen.subarray(6 * i, 6 * i + 3)], [...this.seen.subarray(6 * i + 3, 6 * i + 6)]];
-    return [[-size.x / 2, -size.y / 2, -size.z / 2], [size.x / 2, size.y / 2, size.z / 2]];
+  /** Before, a box was what was seen of it: the seen part grows into the whole while the box goes back to that. */
+  private range(i: number, size: THREE.Vector3, seen: boolean, t: number): [number[], number[]] {
+    const whole = [[-size.x / 2, -size.y / 2, -size.z / 2], [size.x / 2, size.y / 2, size.z / 2]] as [number[], number[]];
+    if (!seen || !this.seen) return whole;
+    const s = this.seen.subarray(6 * i, 6 * i + 6), back = this.free ? t : 0;
+    return whole.map((end, e) => end.map((w, a) => s[3 * e + a]! + (w - s[3 * e + a]!) * back)) as [number[], number[]];
   }
 
   private corners(t: number, seen: boolean): Float32Array {
@@ -82,7 +85,7 @@ export class BoxesLayer extends ColoredLayer {
     const p = new THREE.Vector3();
     for (let i = 0; i < this.count; ++i) {
       const { toWorld, size } = this.frame_(i, t);
-      const corners = boxCorners(...this.range(i, size, seen));
+      const corners = boxCorners(...this.range(i, size, seen, t));
       for (let k = 0; k < 8; ++k) p.fromArray(corners, 3 * k).applyMatrix4(toWorld).toArray(out, 24 * i + 3 * k);
     }
     return out;
@@ -116,7 +119,7 @@ export class BoxesLayer extends ColoredLayer {
     let best: Hit | null = null;
     for (let i = 0; i < this.count; ++i) {
       const { toWorld, size } = this.frame_(i, this.context.shared.uBefore.value);
-      const [low, high] = this.range(i, size, false);
+      const [low, high] = this.range(i, size, false, 0);
       const distance = hitBox(ray, toWorld, new THREE.Vector3(...low), new THREE.Vector3(...high));
       if (distance !== null && (!best || distance < best.distance) && this.context.shared.shows(ray.at(distance, new THREE.Vector3())))
         best = { selection: { structure: this.structure.id, index: i }, distance };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,10 +13,14 @@
 #include "unseen/core/geometry.h"
 #include "unseen/core/options.h"
 
-namespace unseen::report {
+namespace unseen::io {
 
-/// Parses JSON of at most 64 levels. Throws InputError.
-nlohmann::json parse_json(const std::string& text, const std::string& source);
+/// Parses JSON of at most 64 levels. Throws InputError; `expected` says what the text should have been.
+nlohmann::json parse_json(const std::string& text, const std::string& source,
+                          const std::string& expected = "a result of unseen");
+
+/// The whole of a text file of at most `largest` bytes. Throws InputError.
+std::string read_text_file(const std::filesystem::path& path, std::size_t largest);
 
 /// A value within a JSON file that knows where it stands, "planes[3].normal", so that every failed check
 /// throws an InputError which names file and field. Refers to the parsed file, which must outlive it.
@@ -36,6 +41,7 @@ class JsonField {
   std::string text() const;
   double number(double min = -std::numeric_limits<double>::infinity(),
                 double max = std::numeric_limits<double>::infinity()) const;
+  bool truth() const;
   std::size_t count() const;
   /// Index of something of which there are `size`.
   int index(std::size_t size) const;
@@ -44,9 +50,14 @@ class JsonField {
   /// A vector of length 1 within 1e-6.
   Vec3 unit_vector() const;
 
+  /// Fails if the object has a member that is not `known`.
+  void allow_only(const std::vector<std::string>& known) const;
+
   /// A boolean, a number, a text or numbers, as options are; nothing for null.
   std::optional<OptionInput> option() const;
 
+  const std::string& source() const { return source_; }
+  const std::string& path() const { return path_; }
   [[noreturn]] void fail(const std::string& expected) const;
 
  private:
@@ -54,4 +65,4 @@ class JsonField {
   std::string source_, path_;
 };
 
-}  // namespace unseen::report
+}  // namespace unseen::io

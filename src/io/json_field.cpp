@@ -1,28 +1,44 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "report/json_read.h"
+#include "io/json_field.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "unseen/core/error.h"
 
-namespace unseen::report {
+namespace unseen::io {
 
-nlohmann::json parse_json(const std::string& text, const std::string& source) {
+nlohmann::json parse_json(const std::string& text, const std::string& source, const std::string& expected) {
   constexpr int kDeepest = 64;
   using Event = nlohmann::json::parse_event_t;
   const auto limit_depth = [&](int depth, Event event, nlohmann::json&) {
     if (depth > kDeepest && (event == Event::object_start || event == Event::array_start))
-      throw InputError(source, "", fmt::format("more than {} nested levels", kDeepest), "a result of unseen");
+      throw InputError(source, "", fmt::format("more than {} nested levels", kDeepest), expected);
     return true;
   };
   try {
     return nlohmann::json::parse(text, limit_depth);
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(source, "", "broken JSON (" + std::string(e.what()) + ")", "a result of unseen");
+    throw InputError(source, "", "broken JSON (" + std::string(e.what()) + ")", expected);
   }
+}
+
+std::string read_text_file(const std::filesystem::path& path, std::size_t largest) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw InputError(path.string(), "", "a folder", "a file");
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw InputError(path.string(), "", error.message(), "a file that can be read");
+  if (size > largest)
+    throw InputError(path.string(), "", fmt::format("{} bytes", size), fmt::format("at most {} MiB", largest >> 20));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path.string(), "", "no permission", "a file that can be read");
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 JsonField JsonField::operator[](const std::string& key) const {
@@ -49,7 +65,7 @@ std::vector<std::pair<std::string, JsonField>> JsonField::members() const {
   if (!value_->is_object()) fail("an object");
   std::vector<std::pair<std::string, JsonField>> fields;
   for (const auto& [key, value] : value_->items())
-    fields.emplace_back(key, JsonField(value, source_, path_ + "." + key));
+    fields.emplace_back(key, JsonField(value, source_, path_.empty() ? key : path_ + "." + key));
   return fields;
 }
 
@@ -63,6 +79,11 @@ double JsonField::number(double min, double max) const {
   const double v = value_->get<double>();
   if (!std::isfinite(v) || v < min || v > max) fail(fmt::format("a number in [{}, {}]", min, max));
   return v;
+}
+
+bool JsonField::truth() const {
+  if (!value_->is_boolean()) fail("true or false");
+  return value_->get<bool>();
 }
 
 std::size_t JsonField::count() const {
@@ -83,8 +104,8 @@ std::vector<int> JsonField::indices(std::size_t size) const {
 }
 
 Vec3 JsonField::vector() const {
+  if (value_->is_array() && value_->size() != 3) fail("three numbers");  // before a huge one is taken apart
   const auto fields = list();
-  if (fields.size() != 3) fail("three numbers");
   return {fields[0].number(), fields[1].number(), fields[2].number()};
 }
 
@@ -92,6 +113,12 @@ Vec3 JsonField::unit_vector() const {
   const Vec3 v = vector();
   if (!(std::abs(v.norm() - 1.0) < 1e-6)) fail("a vector of length 1");
   return v;
+}
+
+void JsonField::allow_only(const std::vector<std::string>& known) const {
+  for (const auto& [key, member] : members())
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      throw InputError(source_, member.path_, "an unknown field", fmt::format("{}", fmt::join(known, ", ")));
 }
 
 std::optional<OptionInput> JsonField::option() const {
@@ -118,4 +145,4 @@ void JsonField::fail(const std::string& expected) const {
   throw InputError(source_, path_, found, expected);
 }
 
-}  // namespace unseen::report
+}  // namespace unseen::io

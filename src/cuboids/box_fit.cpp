@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/box_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace unseen::cuboids {
+namespace {
+
+const double kUprightSine = std::sin(radians(15.0));
+const double kSlantedSine = std::sin(radians(12.0));
+const double kFaceCosine = std::cos(radians(20.0));
+constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
+constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
+constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
+constexpr double kSliceQuantile = 0.8;
+constexpr std::size_t kMostRectanglePoints = 1500;
+
+double quantile(std::vector<double> values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+Mat3 turned(double yaw) {
+  Mat3 axes = Mat3::Identity();
+  axes(0, 0) = axes(1, 1) = std::cos(yaw);
+  axes(1, 0) = std::sin(yaw);
+  axes(0, 1) = -std::sin(yaw);
+  return axes;
+}
+
+/// Turn of the rectangle of least area around points in a plane, their outermost percent left out.
+double rectangle_turn(const std::vector<Vec2>& points) {
+  const std::size_t step = points.size() / kMostRectanglePoints + 1;
+  const auto area = [&](double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < points.size(); i += step) {
+      x.push_back(c * points[i].x() + s * points[i].y());
+      y.push_back(-s * points[i].x() + c * points[i].y());
+    }
+    return (quantile(x, 0.99) - quantile(x, 0.01)) * (quantile(y, 0.99) - quantile(y, 0.01));
+  };
+  double best = 0, best_area = std::numeric_limits<double>::infinity();
+  for (int degree = 0; degree < 90; degree += 3)
+    if (const double a = area(radians(degree)); a < best_area) best_area = a, best = radians(degree);
+  for (const double step_size : {1.0, 0.3})
+    for (int k = -3; k <= 3; ++k)
+      if (const double a = area(best + radians(step_size * k)); a < best_area) best_area = a, best += radians(step_size * k);
+  return best;
+}
+
+/// Where the points end along axis k on the given side: each slice along axis m ends at its outermost points.
+double end_of(const Observation& seen, std::span<const int> points, const Mat3& axes, int k, int m, double sign) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, spacing = 0;
+  for (const int i : points) {
+    const double along = axes.col(m).dot(seen.points[i]);
+    low = std::min(low, along);
+    high = std::max(high, along);
+    spacing += seen.graph.spacing[i];
+  }
+  spacing /= static_cast<double>(points.size());
+  const double width = std::max({2.5 * spacing, (high - low) / 400.0, 1e-6});
+  std::vector<std::array<double, 2>> best(static_cast<std::size_t>((high - low) / width) + 1, {-1e30, -1e30});
+  std::vector<int> count(best.size(), 0);
+  for (const int i : points) {
+    const std::size_t slice = static_cast<std::size_t>((axes.col(m).dot(seen.points[i]) - low) / width);
+    const double value = sign * axes.col(k).dot(seen.points[i]);
+    auto& [first, second] = best[slice];
+    if (value > first) second = first, first = value;
+    else if (value > second) second = value;
+    ++count[slice];
+  }
+  std::vector<double> ends;
+  for (std::size_t s = 0; s < best.size(); ++s)
+    if (count[s] >= 3) ends.push_back(best[s][1]);
+  if (ends.empty())
+    for (const auto& b : best) ends.push_back(b[0]);
+  return sign * (quantile(ends, kSliceQuantile) + 0.5 * spacing);
+}
+
+}  // namespace
+
+bool is_slanted(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces) {
+  const Face* largest = nullptr;
+  for (const Face* face : faces)
+    if (!largest || face->points.size() > largest->points.size()) largest = face;
+  if (!largest || largest->points.size() * 2 < points.size() || largest->rms > 2.0) return false;
+  const double up = std::abs(largest->plane.normal.z()), sigma = seen.graph.sigma[largest->points.front()];
+  return up > kSlantedSine && up < std::sqrt(1.0 - kSlantedSine * kSlantedSine) && largest->width > 6.0 * sigma;
+}
+
+BoxAxes box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation) {
+  BoxAxes result;
+  std::vector<const Face*> order(faces.begin(), faces.end());
+  std::stable_sort(order.begin(), order.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
+  if (free_orientation && !order.empty()) {
+    const Vec3 primary = order.front()->plane.normal;
+    Vec3 secondary = Vec3::Zero();
+    for (std::size_t f = 1; f < order.size() && secondary.isZero(); ++f)
+      if (std::abs(order[f]->plane.normal.dot(primary)) < kUprightSine && order[f]->width > 0.004) secondary = order[f]->plane.normal;
+    if (secondary.isZero()) {
+      const Vec3 u = any_orthogonal(primary), v = primary.cross(u);
+      std::vector<Vec2> flat;
+      for (const int i : order.front()->points) flat.emplace_back(u.dot(seen.points[i]), v.dot(seen.points[i]));
+      const double turn = rectangle_turn(flat);
+      secondary = std::cos(turn) * u + std::sin(turn) * v;
+    }
+    secondary = (secondary - secondary.dot(primary) * primary).normalized();
+    const std::array<Vec3, 3> raw{primary, secondary, primary.cross(secondary)};
+    const auto z = std::max_element(raw.begin(), raw.end(), [](const Vec3& a, const Vec3& b) { return std::abs(a.z()) < std::abs(b.z()); });
+    const Vec3& x = raw[(z - raw.begin() + 1) % 3];
+    result.axes.col(2) = z->z() < 0.0 ? Vec3(-*z) : *z;
+    result.axes.col(0) = x;
+    result.axes.col(1) = result.axes.col(2).cross(x);
+    result.yaw_information = kEnoughInformation;
+    return result;
+  }
+  // Turns of upright faces count modulo a quarter: sum unit vectors at four times the angle.
+  Vec2 sum = Vec2::Zero();
+  for (const Face* face : faces) {
+    const Vec3& n = face->plane.normal;
+    if (std::abs(n.z()) > kUprightSine) continue;
+    const Vec3 along = Vec3::UnitZ().cross(n).normalized();
+    double mean = 0, squares = 0, sigma = 0;
+    for (const int i : face->points) {
+      const double a = along.dot(seen.points[i] - face->center);
+      mean += a;
+      squares += a * a;
+      sigma += seen.graph.sigma[i];
+    }
+    const double count = static_cast<double>(face->points.size());
+    const double spread = std::sqrt(std::max(squares / count - mean * mean / (count * count), 0.0));
+    if (spread * std::sqrt(12.0) < kShortestForYaw) continue;
+    // Noise of neighbouring pixels is not independent: about one in ten counts.
+    const double error = sigma / count / (spread * std::sqrt(count / 10.0));
+    const double information = 1.0 / (error * error + kSystematic * kSystematic * std::pow(0.05 / spread, 2));
+    const double angle = 4.0 * std::atan2(n.y(), n.x());
+    sum += information * Vec2(std::cos(angle), std::sin(angle));
+  }
+  result.yaw_information = sum.norm();
+  double yaw = 0.25 * std::atan2(sum.y(), sum.x());
+  if (result.yaw_information < kEnoughInformation) {
+    std::vector<Vec2> flat;
+    for (const int i : points) flat.emplace_back(seen.points[i].x(), seen.points[i].y());
+    yaw = rectangle_turn(flat);
+    result.yaw_information = kEnoughInformation / 4.0;
+  }
+  result.axes = turned(yaw);
+  return result;
+}
+
+OrientedBox bound(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
+                  double voxel) {
+  Vec3 low, high, extent;
+  for (int k = 0; k < 3; ++k) {
+    double smallest = std::numeric_limits<double>::infinity(), greatest = -smallest;
+    for (const int i : points) {
+      smallest = std::min(smallest, axes.col(k).dot(seen.points[i]));
+      greatest = std::max(greatest, axes.col(k).dot(seen.points[i]));
+    }
+    extent[k] = greatest - smallest;
+  }
+  const Vec3 viewpoint = axes.transpose() * seen.T_world_camera.translation;
+  for (int k = 0; k < 3; ++k) {
+    for (const double sign : {-1.0, 1.0}) {
+      // A side seen edge on ends the slices along one of the other axes, not along both.
+      double end = sign * std::max(sign * end_of(seen, points, axes, k, (k + 1) % 3, sign),
+                                   sign * end_of(seen, points, axes, k, (k + 2) % 3, sign));
+      double largest = 0;
+      for (const Face* face : faces) largest = std::max(largest, sign * axes.col(k).dot(face->plane.normal) > kFaceCosine ? face->area : 0.0);
+      // The outermost of the large faces that look this way.
+      double outermost = -std::numeric_limits<double>::infinity();
+      for (const Face* face : faces)
+        if (sign * axes.col(k).dot(face->plane.normal) > kFaceCosine && face->area > 0.3 * largest)
+          outermost = std::max(outermost, sign * axes.col(k).dot(face->center));
+      if (std::isfinite(outermost) && sign * end - outermost < 0.02 + 0.25 * extent[k]) end = sign * outermost;
+      (sign < 0 ? low : high)[k] = end;
+    }
+    if (high[k] - low[k] < voxel) {  // thin: what is behind the seen side is not known
+      const double middle = 0.5 * (low[k] + high[k]), side = viewpoint[k] > middle ? 1.0 : -1.0;
+      (side > 0 ? low : high)[k] = (side > 0 ? high : low)[k] - side * voxel;
+    }
+  }
+  OrientedBox box;
+  box.axes = axes;
+  box.center = axes * (0.5 * (low + high));
+  box.half_size = 0.5 * (high - low);
+  return box;
+}
+
+}  // namespace unseen::cuboids

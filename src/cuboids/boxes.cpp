@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+
+#include "cuboids/box_fit.h"
+#include "cuboids/slabs.h"
+#include "unseen/core/error.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr int kFewestFacePoints = 24;
+constexpr double kSigmas = 3.0;
+constexpr double kFinestVoxel = 0.005;  // of the radius of the objects
+constexpr double kFarthest = 100.0;     // m
+
+/// Bounding radius of the objects, supports left out.
+double radius_of(const Observation& seen, const std::vector<ObjectPart>& parts) {
+  Vec3 low = Vec3::Constant(1e30), high = -low;
+  for (const ObjectPart& part : parts)
+    for (const int i : part.points) low = low.cwiseMin(seen.points[i]), high = high.cwiseMax(seen.points[i]);
+  return 0.5 * (high - low).norm();
+}
+
+double mean_sigma(const Observation& seen, std::span<const int> points) {
+  double sum = 0;
+  for (const int i : points) sum += seen.graph.sigma[i];
+  return sum / static_cast<double>(points.size());
+}
+
+/// What ends just above the ground stands on it: its lowest slice counts as ground's.
+void set_down(const Observation& seen, std::span<const int> points, OrientedBox& box) {
+  if (box.axes(2, 2) < 1.0 - 1e-9) return;
+  const double bottom = box.center.z() - box.half_size.z();
+  const double reach = 5.0 * mean_sigma(seen, points) + 2.0 * seen.graph.spacing[points.front()];
+  if (std::abs(bottom) > reach) return;
+  box.center.z() -= 0.5 * bottom;
+  box.half_size.z() += 0.5 * bottom;
+}
+
+}  // namespace
+
+std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen, const std::vector<ObjectPart>& parts,
+                                const DepthView& view, const Options& options, Context& context) {
+  std::vector<Cuboid> cuboids;
+  if (parts.empty()) return cuboids;
+  std::vector<int> group(seen.points.size(), -1);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const int i : parts[k].points) group[i] = static_cast<int>(k);
+  const Faces faces = grow_faces(seen.points, seen.graph, group, seen.T_world_camera.translation, kFewestFacePoints);
+  std::vector<std::vector<const Face*>> faces_of(parts.size());
+  for (const Face& face : faces.faces) faces_of[group[face.points.front()]].push_back(&face);
+
+  const double finest = kFinestVoxel * radius_of(seen, parts);
+  const auto add = [&](const ObjectPart& part, const OrientedBox& box, std::size_t count) {
+    if (box.half_size.maxCoeff() > kFarthest)
+      throw InputError(frame.name, "depth", "a box of over 100 m", "metres after division by depth_scale");
+    Cuboid cuboid;
+    cuboid.id = static_cast<int>(seen.supports.size() + cuboids.size());
+    cuboid.box = cuboid.initial = box;
+    cuboid.visible_points = count;
+    cuboid.label = part.label;
+    const auto density = frame.densities.find(part.label);
+    cuboid.density = density == frame.densities.end() ? options.density : density->second;
+    cuboids.push_back(cuboid);
+  };
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    context.check();
+    const ObjectPart& part = parts[k];
+    const double voxel = std::max(kSigmas * mean_sigma(seen, part.points), finest);
+    const bool slanted = part.free_orientation || is_slanted(seen, part.points, faces_of[k]);
+    const Mat3 axes = box_axes(seen, part.points, faces_of[k], slanted).axes;
+    OrientedBox box = bound(seen, part.points, faces_of[k], axes, voxel);
+    set_down(seen, part.points, box);
+    if (filled_share(view, box, voxel) >= options.fill) {
+      add(part, box, part.points.size());
+      continue;
+    }
+    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, box, voxel, options.fill)) {
+      OrientedBox piece = bound(seen, slab, {}, axes, voxel);
+      set_down(seen, slab, piece);
+      add(part, piece, slab.size());
+    }
+  }
+  return cuboids;
+}
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <numeric>
+
+#include "cuboids/faces.h"
+#include "cuboids/observation.h"
+#include "cuboids/strokes.h"
+#include "cuboids/supports.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr int kFewestFacePoints = 30;
+constexpr std::size_t kFewestPoints = 120;    // of an object
+constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
+constexpr double kCurved = 30.0;              // degrees that neighbouring pieces of a hollow surface may differ by
+constexpr std::size_t kFewestBorderLinks = 4;
+constexpr double kSliver = 6.0;                // widths, in noise or spacing
+constexpr double kOutside = 0.02;             // m beyond the outline of the ground, where something else carries
+
+/// Where two faces meet.
+struct Border {
+  std::size_t links = 0;
+  Vec3 place = Vec3::Zero();  ///< sum over links
+  bool concave = false, joins = false;
+};
+
+/// Strips as narrow as what a sensor blurs along an edge say nothing of their own: what is next to them gets them.
+void leave_out_slivers(Faces& faces, const PointGraph& graph) {
+  for (const Face& face : faces.faces) {
+    const int i = face.points.front();
+    const double blur = std::max(graph.sigma[i], graph.spacing[i]);
+    if (face.width * std::sqrt(12.0) > kSliver * blur) continue;
+    for (const int j : face.points) faces.face_of_point[j] = -1;
+  }
+}
+
+/// Every point of the groups that some face can be reached from gets the nearest (in links) face.
+std::vector<int> spread(const Faces& faces, const PointGraph& graph, std::span<const int> group) {
+  std::vector<int> owner = faces.face_of_point, queue;
+  for (int i = 0; i < static_cast<int>(owner.size()); ++i)
+    if (owner[i] >= 0) queue.push_back(i);
+  for (std::size_t at = 0; at < queue.size(); ++at)
+    for (const int j : graph.neighbours(queue[at]))
+      if (owner[j] < 0 && group[j] >= 0 && group[j] == group[queue[at]]) {
+        owner[j] = owner[queue[at]];
+        queue.push_back(j);
+      }
+  return owner;
+}
+
+void judge(Border& border, const Face& a, const Face& b, double sigma) {
+  const Vec3 place = border.place / static_cast<double>(border.links);
+  const double angle = degrees(std::acos(std::clamp(a.plane.normal.dot(b.plane.normal), -1.0, 1.0)));
+  const double rise = a.plane.normal.dot((b.center - place).normalized()) + b.plane.normal.dot((a.center - place).normalized());
+  const bool meets = std::abs(a.plane.signed_distance(place)) < 5.0 * sigma && std::abs(b.plane.signed_distance(place)) < 5.0 * sigma;
+  border.concave = rise > 0.0 && angle > kCurved;
+  border.joins = !border.concave && meets && border.links >= kFewestBorderLinks;
+}
+
+/// Faces of one object: joined where they meet convexly or smoothly, never across a concave edge.
+std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, const Observation& seen) {
+  std::map<std::pair<int, int>, Border> borders;
+  for (int i = 0; i < static_cast<int>(owner.size()); ++i)
+    for (const int j : seen.graph.neighbours(i)) {
+      if (j < i || owner[i] < 0 || owner[j] < 0 || owner[i] == owner[j]) continue;
+      Border& border = borders[std::minmax(owner[i], owner[j])];
+      ++border.links;
+      border.place += 0.5 * (seen.points[i] + seen.points[j]);
+    }
+  std::vector<std::pair<std::size_t, std::pair<int, int>>> order;
+  for (auto& [pair, border] : borders) {
+    const Face &a = faces.faces[pair.first], &b = faces.faces[pair.second];
+    judge(border, a, b, seen.graph.sigma[a.points.front()]);
+    if (border.joins) order.emplace_back(border.links, pair);
+  }
+  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<int> object(faces.faces.size());
+  std::iota(object.begin(), object.end(), 0);
+  for (const auto& [links, pair] : order) {
+    const int to = object[pair.first], from = object[pair.second];
+    if (to == from) continue;
+    const bool apart = std::any_of(borders.begin(), borders.end(), [&](const auto& entry) {
+      const int p = object[entry.first.first], q = object[entry.first.second];
+      return entry.second.concave && entry.second.links >= kFewestBorderLinks && ((p == to && q == from) || (p == from && q == to));
+    });
+    if (!apart) std::replace(object.begin(), object.end(), from, to);
+  }
+  return object;
+}
+
+/// Which points may belong to objects: not of a support, not below the ground nor beyond its end.
+std::vector<int> candidates(const Observation& seen) {
+  std::vector<int> group(seen.points.size(), -1);
+  std::vector<Vec2> outline;
+  for (const Vec3& p : seen.supports.front().outline) outline.push_back(p.head<2>());
+  for (std::size_t i = 0; i < seen.points.size(); ++i) {
+    const Vec3& p = seen.points[i];
+    if (seen.support_of_point[i] >= 0 || seen.supports.front().plane.signed_distance(p) < 0.0) continue;
+    if (!outline.empty() && !inside_outline(outline, p.head<2>(), kOutside)) continue;
+    const bool behind = std::any_of(seen.supports.begin() + 1, seen.supports.end(), [&](const Support& s) {
+      return s.kind == SupportKind::wall && s.plane.signed_distance(p) < -4.0 * seen.graph.sigma[i] && s.plane.signed_distance(p) > -0.1;
+    });
+    if (!behind) group[i] = 0;
+  }
+  return group;
+}
+
+/// Points of equal non-negative group that links connect.
+std::vector<std::vector<int>> components(const Observation& seen, const std::vector<int>& group) {
+  std::vector<std::vector<int>> parts;
+  std::vector<char> done(group.size(), 0);
+  for (int s = 0; s < static_cast<int>(group.size()); ++s) {
+    if (group[s] < 0 || done[s]) continue;
+    std::vector<int> part{s};
+    done[s] = 1;
+    for (std::size_t at = 0; at < part.size(); ++at)
+      for (const int j : seen.graph.neighbours(part[at]))
+        if (!done[j] && group[j] == group[s]) done[j] = 1, part.push_back(j);
+    std::sort(part.begin(), part.end());
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// Too few points, or no farther from the supports than their own noise.
+bool is_debris(const Observation& seen, const std::vector<int>& part) {
+  if (part.size() < kFewestPoints) return true;
+  for (const Support& support : seen.supports) {
+    std::vector<double> height;
+    for (const int i : part) height.push_back(support.plane.signed_distance(seen.points[i]) / seen.graph.sigma[i]);
+    const auto high = height.begin() + static_cast<std::ptrdiff_t>(height.size() * 9 / 10);
+    std::nth_element(height.begin(), high, height.end());
+    if (std::abs(*high) < kLowest) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& seen, const Options&, Context& context) {
+  std::vector<int> group = candidates(seen);
+  std::vector<std::string> labels;
+  const bool drawn = !frame.strokes.empty() && !frame.is_fused(), masked = !frame.masks.empty() && !frame.is_fused();
+  if (drawn) {
+    const std::vector<int> object = cut_by_strokes(frame, seen);
+    labels = stroke_labels(frame);
+    for (std::size_t i = 0; i < group.size(); ++i)
+      group[i] = group[i] < 0 ? -1 : object[seen.pixel_of_point[i]] + 1;  // 0 = the rest
+  } else if (masked) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const int mask = frame.masks[seen.pixel_of_point[i]];
+      group[i] = mask > 0 && seen.support_of_point[i] < 0 ? mask : -1;
+    }
+  }
+  context.check();
+  // Without masks the surfaces themselves say where one object ends and the next begins.
+  std::vector<int> object = group;
+  if (!masked) {
+    std::vector<int> unmarked = group;
+    for (int& g : unmarked) g = g == 0 ? 0 : -1;
+    Faces faces = grow_faces(seen.points, seen.graph, unmarked, seen.T_world_camera.translation, kFewestFacePoints);
+    leave_out_slivers(faces, seen.graph);
+    const std::vector<int> owner = spread(faces, seen.graph, unmarked), joined = join_faces(faces, owner, seen);
+    const int first = static_cast<int>(labels.size()) + 2;
+    for (std::size_t i = 0; i < object.size(); ++i)
+      if (unmarked[i] == 0) object[i] = owner[i] >= 0 ? first + joined[owner[i]] : 0;
+  }
+  context.check();
+  std::vector<ObjectPart> parts;
+  std::size_t debris = 0;
+  for (std::vector<int>& points : components(seen, object)) {
+    if (is_debris(seen, points)) {
+      ++debris;
+      continue;
+    }
+    ObjectPart part;
+    const int g = group[points.front()];
+    if (masked) part.label = std::to_string(g);
+    if (drawn && g > 0) {
+      part.label = labels[g - 1];
+      part.free_orientation = true;
+    }
+    part.points = std::move(points);
+    parts.push_back(std::move(part));
+  }
+  if (debris > 0) context.message(fmt::format("{} pieces too small to be objects were left out", debris));
+  return parts;
+}
+
+}  // namespace unseen::cuboids

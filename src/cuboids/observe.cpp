@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "cuboids/observation.h"
+#include "cuboids/supports.h"
+#include "unseen/core/error.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kSigmas = 3.0;
+constexpr double kFarthest = 100.0;       // m; nothing measures depth so far indoors: wrong units
+constexpr std::size_t kFewestPoints = 200;
+constexpr int kFewestFacePoints = 60;
+const double kFlatCosine = std::cos(radians(35.0));
+const double kSameUp = std::cos(radians(5.0)), kNearVertical = std::cos(radians(5.0));
+
+void check_frame(const RgbdFrame& frame) {
+  if (frame.is_fused()) {
+    if (frame.cloud.positions.size() < kFewestPoints)
+      throw InputError(frame.name, "cloud", fmt::format("{} points", frame.cloud.size()),
+                       fmt::format("at least {}", kFewestPoints));
+    return;
+  }
+  const Camera& c = frame.camera;
+  const std::size_t pixels = static_cast<std::size_t>(c.width) * std::max(c.height, 0);
+  if (frame.depth.empty()) throw InputError(frame.name, "depth", "nothing", "a depth image or a cloud");
+  if (frame.depth.size() != pixels)
+    throw InputError(frame.name, "depth", fmt::format("{} pixels", frame.depth.size()),
+                     fmt::format("{} × {} of them", c.width, c.height));
+  if (!(c.fx > 0.0 && c.fy > 0.0) || !std::isfinite(c.cx) || !std::isfinite(c.cy))
+    throw InputError(frame.name, "camera", fmt::format("focal lengths {} and {}", c.fx, c.fy), "positive focal lengths");
+  if (!frame.color.empty() && frame.color.size() != pixels)
+    throw InputError(frame.name, "color", fmt::format("{} pixels", frame.color.size()), "as many as the depth image");
+  if (!frame.masks.empty() && frame.masks.size() != pixels)
+    throw InputError(frame.name, "masks", fmt::format("{} pixels", frame.masks.size()), "as many as the depth image");
+}
+
+void check_points(const RgbdFrame& frame, const Measured& measured) {
+  const char* field = frame.is_fused() ? "cloud" : "depth";
+  if (measured.points.size() < kFewestPoints)
+    throw InputError(frame.name, field, fmt::format("{} valid measurements", measured.points.size()),
+                     fmt::format("at least {}", kFewestPoints));
+  std::vector<double> depth;
+  for (std::size_t i = 0; i < measured.points.size(); i += 11) depth.push_back(measured.points[i].norm());
+  const auto middle = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() / 2);
+  std::nth_element(depth.begin(), middle, depth.end());
+  if (*middle > kFarthest)
+    throw InputError(frame.name, field, fmt::format("a median distance of {:.0f} m", *middle),
+                     "metres after division by depth_scale");
+}
+
+/// Supports that the frame file names, each with the points that lie on it.
+FoundSupports given_supports(const RgbdFrame& frame, const Scan& scan) {
+  FoundSupports found;
+  for (const GivenSupport& given : frame.supports) {
+    Support support;
+    const double length = given.plane.normal.norm();
+    if (!(length > 0.0) || !std::isfinite(given.plane.offset))
+      throw InputError(frame.name, "supports", "a plane without direction", "normal and offset of a plane");
+    support.plane = {given.plane.normal / length, given.plane.offset / length};
+    if (support.plane.offset > 0.0) support.plane = {-support.plane.normal, -support.plane.offset};
+    const auto kind = std::find(std::begin(kSupportKinds), std::end(kSupportKinds), given.kind);
+    if (kind == std::end(kSupportKinds))
+      throw InputError(frame.name, "supports", given.kind, "ground, desk, wall or ceiling");
+    support.kind = static_cast<SupportKind>(kind - std::begin(kSupportKinds));
+    found.supports.push_back(support);
+  }
+  std::stable_sort(found.supports.begin(), found.supports.end(),
+                   [](const Support& a, const Support& b) { return a.kind < b.kind; });
+  if (found.supports.front().kind > SupportKind::desk)
+    throw InputError(frame.name, "supports", "no ground", "one that is ground or desk");
+  found.up = found.supports.front().plane.normal;
+  for (std::size_t s = 0; s < found.supports.size(); ++s) {
+    found.supports[s].id = static_cast<int>(s);
+    found.points.emplace_back();
+    for (std::size_t f = 0; f < scan.faces.faces.size(); ++f) {
+      const Face& face = scan.faces.faces[f];
+      if (face.plane.normal.dot(found.supports[s].plane.normal) > kFlatCosine &&
+          std::abs(found.supports[s].plane.signed_distance(face.center)) <
+              kSigmas * scan.graph.sigma[face.points.front()] + 0.003)
+        found.points.back().insert(found.points.back().end(), face.points.begin(), face.points.end());
+    }
+  }
+  return found;
+}
+
+/// z up, z = 0 on the ground, origin below the camera; the camera's forward on +y, or what is up in its picture.
+RigidTransform world_of(const Vec3& up, const Plane& ground) {
+  Vec3 forward = Vec3::UnitZ();
+  if (std::abs(forward.dot(up)) > kNearVertical) forward = -Vec3::UnitY();
+  RigidTransform T;
+  const Vec3 y = (forward - forward.dot(up) * up).normalized();
+  T.rotation.row(0) = y.cross(up);
+  T.rotation.row(1) = y;
+  T.rotation.row(2) = up;
+  // The ground's height right below the viewpoint.
+  T.translation = {0, 0, -ground.offset / ground.normal.dot(up)};
+  return T;
+}
+
+/// The faces of a support belong to it, and single points that lie on it; the feet of what stands on it do not.
+std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
+  std::vector<int> support(scan.points.size(), -1);
+  for (std::size_t s = 0; s < found.supports.size(); ++s)
+    for (const int i : found.points[s]) support[i] = static_cast<int>(s);
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const Vec3& p = scan.points[i];
+    for (std::size_t s = 0; s < found.supports.size(); ++s) {
+      const Plane& plane = found.supports[s].plane;
+      const double slant = std::abs(plane.normal.dot(p)) / (scan.is_image ? p.z() : p.norm());
+      const double reach = kSigmas * scan.graph.sigma[i] * std::clamp(slant, 0.3, 1.0);
+      const double distance = std::abs(plane.signed_distance(p)), turned = plane.normal.dot(scan.graph.normals[i]);
+      const bool on = distance < 0.5 * reach || (distance < 1.5 * reach && turned > kFlatCosine);
+      if (support[i] < 0 && on) support[i] = static_cast<int>(s);
+      if (support[i] == static_cast<int>(s) && distance > 5.0 * reach + 0.003) support[i] = -1;
+    }
+  }
+  return support;
+}
+
+}  // namespace
+
+Observation observe(const RgbdFrame& frame, const Options& options, Context& context) {
+  check_frame(frame);
+  const Measured measured = measured_points(frame);
+  check_points(frame, measured);
+  Observation seen;
+  seen.graph = link_points(frame, measured, options.noise, options.gap, context);
+  context.check();
+  const std::vector<int> one_group(measured.points.size(), 0);
+  const Faces faces = grow_faces(measured.points, seen.graph, one_group, Vec3::Zero(), kFewestFacePoints);
+  const Scan scan{measured.points, seen.graph, faces, !frame.is_fused()};
+  context.check();
+
+  FoundSupports found;
+  if (!frame.supports.empty()) {
+    found = given_supports(frame, scan);
+    if (frame.up && frame.up->normalized().dot(found.up) > kSameUp) found.up = frame.up->normalized();
+  } else {
+    const Vec3 up = frame.up ? frame.up->normalized() : find_up(scan);
+    if (!up.allFinite() || up.norm() < 0.5) throw InputError(frame.name, "depth", "no plane", "a surface to stand on");
+    found = find_supports(scan, up);
+    if (frame.up && found.upside_down)
+      throw InputError(frame.name, "up", "a direction that only undersides face", "the direction against gravity");
+    if (found.supports.empty())
+      throw InputError(frame.name, "depth", "no horizontal plane", "a surface to stand on");
+    if (frame.up && found.up.dot(up) < kSameUp) found.up = up;
+  }
+  seen.T_world_camera = world_of(found.up, found.supports.front().plane);
+  seen.support_of_point = assign(found, scan);
+  const RigidTransform& T = seen.T_world_camera;
+  seen.supports = found.supports;
+  for (Support& support : seen.supports) {
+    support.plane.offset += (T.rotation * support.plane.normal).dot(T.translation);
+    support.plane.normal = T.rotation * support.plane.normal;
+    for (Vec3& p : support.outline) p = T * p;
+  }
+  seen.points.reserve(measured.points.size());
+  for (const Vec3& p : measured.points) seen.points.push_back(T * p);
+  for (Vec3& n : seen.graph.normals) n = T.rotation * n;
+  seen.pixel_of_point = measured.pixel_of_point;
+  seen.point_of_pixel = measured.point_of_pixel;
+  return seen;
+}
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/point_graph.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nanoflann.hpp>
+#include <unordered_map>
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kSmallestSigma = 0.0005;   // m; files hold whole millimetres, and no sensor is better close up
+constexpr int kReach = 3;                   // pixels; some sensors leave out every few lines
+constexpr int kMinWindow = 4, kMaxWindow = 12;  // pixels each way, of the surroundings that give a normal
+constexpr std::size_t kMostCloudPoints = 200000;
+constexpr int kCloudNeighbours = 12;
+
+/// Normal and flatness of one point from the sums over its surroundings.
+void set_normal(PointGraph& graph, const Vec3& point, int i, const Vec3& sum, const Mat3& scatter, double count) {
+  graph.normals[i] = Vec3::Zero();
+  graph.flatness[i] = std::numeric_limits<float>::infinity();
+  if (count < 6) return;
+  const Vec3 mean = sum / count;
+  const Mat3 covariance = scatter / count - mean * mean.transpose();
+  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
+  eigen.computeDirect(covariance);
+  if (!(eigen.eigenvalues()[1] > 0.0) || eigen.eigenvalues()[1] < 2.0 * eigen.eigenvalues()[0]) return;
+  Vec3 normal = eigen.eigenvectors().col(0);
+  if (!normal.allFinite()) return;
+  if (normal.dot(point) > 0.0) normal = -normal;
+  graph.normals[i] = normal;
+  graph.flatness[i] = static_cast<float>(std::sqrt(std::max(normal.dot(covariance * normal), 0.0)) / graph.sigma[i]);
+}
+
+/// Surroundings in the picture: 5 × 5 samples, as wide as the noise asks for (about 3° of error of the normal).
+void normals_of_image(const Camera& camera, const Measured& m, PointGraph& graph, const Context& context) {
+  const double focal = std::min(camera.fx, camera.fy);
+  const auto rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3& p = m.points[i];
+      const double sigma = graph.sigma[i], spacing = p.z() / focal;
+      const int half = std::clamp(static_cast<int>(7.0 * sigma / spacing), kMinWindow, kMaxWindow), step = half / 2;
+      const int u = m.pixel_of_point[i] % camera.width, v = m.pixel_of_point[i] / camera.width;
+      Vec3 sum = Vec3::Zero();
+      Mat3 scatter = Mat3::Zero();
+      double count = 0;
+      for (int dv = -2; dv <= 2; ++dv)
+        for (int du = -2; du <= 2; ++du) {
+          const int x = u + du * step, y = v + dv * step;
+          if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;
+          const int j = m.point_of_pixel[static_cast<std::size_t>(y) * camera.width + x];
+          if (j < 0) continue;
+          const Vec3 d = m.points[j] - p;
+          const double across = spacing * step * std::max(std::abs(du), std::abs(dv));
+          if (std::abs(d.z()) > 3.0 * sigma + 2.5 * across) continue;
+          sum += d;
+          scatter += d * d.transpose();
+          count += 1;
+        }
+      set_normal(graph, p, static_cast<int>(i), sum, scatter, count);
+    }
+  };
+  parallel_blocks(context, m.points.size(), 8192, rows);
+}
+
+/// Links to the next measured pixel to the right and below, if it lies on the same surface.
+std::vector<std::pair<int, int>> image_links(const Camera& camera, const Measured& m, const PointGraph& graph,
+                                             std::optional<double> gap) {
+  std::vector<std::pair<int, int>> pairs;
+  pairs.reserve(2 * m.points.size());
+  const auto link = [&](int i, int x, int y, int dx, int dy) {
+    for (int step = 1; step <= kReach; ++step) {
+      const int u = x + dx * step, v = y + dy * step;
+      if (u >= camera.width || v >= camera.height) return;
+      const int j = m.point_of_pixel[static_cast<std::size_t>(v) * camera.width + u];
+      if (j < 0) continue;
+      const double allowed =
+          gap.value_or(4.0 * std::max(graph.sigma[i], graph.sigma[j]) + (3.0 + step) * graph.spacing[i]);
+      if ((m.points[i] - m.points[j]).norm() <= allowed) pairs.emplace_back(i, j);
+      return;
+    }
+  };
+  for (int i = 0; i < static_cast<int>(m.points.size()); ++i) {
+    const int x = m.pixel_of_point[i] % camera.width, y = m.pixel_of_point[i] / camera.width;
+    link(i, x, y, 1, 0);
+    link(i, x, y, 0, 1);
+  }
+  return pairs;
+}
+
+struct CloudView {
+  const std::vector<Vec3>& points;
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t d) const { return points[i][static_cast<Eigen::Index>(d)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const { return false; }
+};
+
+/// Nearest points of a cloud give links, normals and the spacing.
+std::vector<std::pair<int, int>> cloud_links(const Measured& m, PointGraph& graph, std::optional<double> gap,
+                                             const Context& context) {
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, CloudView>, CloudView, 3>;
+  const CloudView view{m.points};
+  const Tree tree(3, view, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const std::size_t count = m.points.size(), wanted = std::min<std::size_t>(kCloudNeighbours + 1, count);
+  std::vector<std::array<unsigned, kCloudNeighbours + 1>> index(count);
+  std::vector<std::array<double, kCloudNeighbours + 1>> distance(count);
+  const auto block = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      tree.knnSearch(m.points[i].data(), wanted, index[i].data(), distance[i].data());
+      Vec3 sum = Vec3::Zero();
+      Mat3 scatter = Mat3::Zero();
+      for (std::size_t k = 0; k < wanted; ++k) {
+        const Vec3 d = m.points[index[i][k]] - m.points[i];
+        sum += d;
+        scatter += d * d.transpose();
+      }
+      graph.spacing[i] = static_cast<float>(std::sqrt(distance[i][std::min<std::size_t>(4, wanted - 1)]));
+      set_normal(graph, m.points[i], static_cast<int>(i), sum, scatter, static_cast<double>(wanted));
+    }
+  };
+  parallel_blocks(context, count, 4096, block);
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 1; k < wanted; ++k) {
+      const std::size_t j = index[i][k];
+      const double allowed = gap.value_or(4.0 * graph.sigma[i] + 4.0 * graph.spacing[i]);
+      if (std::sqrt(distance[i][k]) > allowed || j == i) continue;
+      pairs.emplace_back(static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j)));
+    }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+/// One point a cell, the first of the cloud that falls into it; cells grow until few enough are left.
+std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
+  std::vector<Vec3> kept = points;
+  double low = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : points) low = std::min(low, p.minCoeff());
+  for (double cell = 0.002; kept.size() > kMostCloudPoints; cell *= 1.4) {
+    std::unordered_map<std::uint64_t, bool> seen;
+    std::vector<Vec3> next;
+    for (const Vec3& p : kept) {
+      const Eigen::Matrix<std::uint64_t, 3, 1> c = ((p.array() - low) / cell).floor().cast<std::uint64_t>();
+      if (seen.emplace((c.x() << 42) ^ (c.y() << 21) ^ c.z(), true).second) next.push_back(p);
+    }
+    kept = std::move(next);
+  }
+  return kept;
+}
+
+}  // namespace
+
+Measured measured_points(const RgbdFrame& frame) {
+  Measured m;
+  if (frame.is_fused()) {
+    const Vec3 viewpoint = frame.cloud.viewpoint.value_or(Vec3::Zero());
+    for (const Vec3& p : frame.cloud.positions)
+      if (p.allFinite()) m.points.push_back(p - viewpoint);
+    m.points = thinned(m.points);
+    return m;
+  }
+  const Camera& camera = frame.camera;
+  m.point_of_pixel.assign(frame.depth.size(), -1);
+  m.points.reserve(frame.depth.size());
+  m.pixel_of_point.reserve(frame.depth.size());
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    const double depth = frame.depth[i];
+    if (!std::isfinite(depth) || depth <= 0.0) continue;
+    m.point_of_pixel[i] = static_cast<int>(m.points.size());
+    m.pixel_of_point.push_back(static_cast<int>(i));
+    m.points.push_back(camera.unproject(static_cast<double>(i % camera.width), static_cast<double>(i / camera.width), depth));
+  }
+  return m;
+}
+
+PointGraph link_points(const RgbdFrame& frame, const Measured& m, double noise, std::optional<double> gap,
+                       const Context& context) {
+  const std::size_t count = m.points.size();
+  PointGraph graph;
+  graph.normals.assign(count, Vec3::Zero());
+  graph.flatness.assign(count, 0.0f);
+  graph.sigma.resize(count);
+  graph.spacing.resize(count);
+  const double focal = frame.is_fused() ? 1.0 : std::min(frame.camera.fx, frame.camera.fy);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double depth = frame.is_fused() ? m.points[i].norm() : m.points[i].z();
+    graph.sigma[i] = static_cast<float>(std::max(noise * depth * depth, kSmallestSigma));
+    graph.spacing[i] = static_cast<float>(depth / focal);
+  }
+  std::vector<std::pair<int, int>> pairs;
+  if (frame.is_fused()) {
+    pairs = cloud_links(m, graph, gap, context);
+  } else {
+    normals_of_image(frame.camera, m, graph, context);
+    pairs = image_links(frame.camera, m, graph, gap);
+  }
+  graph.start.assign(count + 1, 0);
+  for (const auto& [a, b] : pairs) ++graph.start[a + 1], ++graph.start[b + 1];
+  for (std::size_t i = 0; i < count; ++i) graph.start[i + 1] += graph.start[i];
+  graph.links.resize(graph.start[count]);
+  std::vector<int> at(graph.start.begin(), graph.start.end() - 1);
+  for (const auto& [a, b] : pairs) {
+    graph.links[at[a]++] = b;
+    graph.links[at[b]++] = a;
+  }
+  return graph;
+}
+
+}  // namespace unseen::cuboids

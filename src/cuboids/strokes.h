@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cuboids/observation.h"
+
+namespace unseen::cuboids {
+
+/// Object a pixel by grab-cut on colour and depth, seeded from the frame's strokes (thesis, Section 4.3.1; Rother et
+/// al., "GrabCut", 2004). −1 = none; else an index into the labels of the frame's strokes in their order, without doubles.
+std::vector<int> cut_by_strokes(const RgbdFrame& frame, const Observation& seen);
+std::vector<std::string> stroke_labels(const RgbdFrame& frame);
+
+}  // namespace unseen::cuboids

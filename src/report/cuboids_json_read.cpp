@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "report/result_read.h"
+#include "unseen/report/cuboids_result.h"
+
+namespace unseen::report {
+namespace {
+
+using Ids = std::set<int>;
+
+constexpr std::size_t kMostIds = 1'000'000'000;
+
+/// An id that nothing before had.
+int new_id(const JsonField& json, Ids& ids) {
+  const int id = json.index(kMostIds);
+  if (!ids.insert(id).second) json.fail("an id of its own");
+  return id;
+}
+
+int known_id(const JsonField& json, const Ids& ids) {
+  const int id = json.index(kMostIds);
+  if (ids.count(id) == 0) json.fail("the id of a support or cuboid");
+  return id;
+}
+
+/// The place of a text in a list of names.
+template <class Kind, std::size_t N>
+Kind kind_of(const JsonField& json, const char* const (&names)[N]) {
+  const std::string text = json.text();
+  std::string all;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (text == names[i]) return static_cast<Kind>(i);
+    all += (i == 0 ? "" : ", ") + std::string(names[i]);
+  }
+  json.fail("one of " + all);
+}
+
+std::vector<Vec3> vectors(const JsonField& json) {
+  std::vector<Vec3> list;
+  for (const JsonField& field : json.list()) list.push_back(field.vector());
+  return list;
+}
+
+RigidTransform transform(const JsonField& json) {
+  const auto rows = json.list();
+  if (rows.size() != 4) json.fail("four rows");
+  RigidTransform t;
+  for (std::size_t r = 0; r < 4; ++r) {
+    const auto row = rows[r].list();
+    if (row.size() != 4) rows[r].fail("four numbers");
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double v = row[c].number();
+      const auto i = static_cast<Eigen::Index>(r), j = static_cast<Eigen::Index>(c);
+      if (r == 3 && v != (c == 3 ? 1.0 : 0.0)) rows[r].fail("0, 0, 0, 1");
+      if (r < 3 && c < 3) t.rotation(i, j) = v;
+      if (r < 3 && c == 3) t.translation[i] = v;
+    }
+  }
+  if (!t.is_rigid(1e-6)) json.fail("a rigid motion");
+  return t;
+}
+
+OrientedBox box(const JsonField& json, const std::string& prefix) {
+  OrientedBox b;
+  b.center = json[prefix + "center"].vector();
+  const JsonField axes = json[prefix + "axes"];
+  const auto rows = axes.list();
+  if (rows.size() != 3) axes.fail("three axes");
+  for (Eigen::Index a = 0; a < 3; ++a) b.axes.col(a) = rows[static_cast<std::size_t>(a)].vector();
+  if (!RigidTransform{b.axes, Vec3::Zero()}.is_rigid(1e-6)) axes.fail("three right-handed axes of length 1");
+  b.half_size = 0.5 * json[prefix + "size"].vector();
+  if (!(b.half_size.minCoeff() > 0.0)) json[prefix + "size"].fail("three sizes above 0");
+  return b;
+}
+
+cuboids::Support support(const JsonField& json, Ids& ids) {
+  cuboids::Support s;
+  s.id = new_id(json["id"], ids);
+  s.kind = kind_of<cuboids::SupportKind>(json["kind"], cuboids::kSupportKinds);
+  s.plane = {json["normal"].unit_vector(), json["offset"].number()};
+  if (!json.has("outline")) return s;
+  s.outline = vectors(json["outline"]);
+  if (s.outline.size() < 3) json["outline"].fail("at least three points");
+  return s;
+}
+
+cuboids::Cuboid cuboid(const JsonField& json, Ids& ids) {
+  cuboids::Cuboid c;
+  c.id = new_id(json["id"], ids);
+  c.box = box(json, "");
+  c.initial = box(json, "initial_");
+  c.visible_points = json["visible_points"].count();
+  c.density = json["density"].number(0);
+  const double mass = json["mass"].number(0);
+  if (std::abs(mass - c.mass()) > 1e-6 * c.mass()) json["mass"].fail(fmt::format("{}, density times volume", c.mass()));
+  if (json.has("label")) c.label = json["label"].text();
+  if (json.has("by_symmetry")) c.by_symmetry = json["by_symmetry"].truth();
+  return c;
+}
+
+cuboids::Contact contact(const JsonField& json, const Ids& ids) {
+  cuboids::Contact c;
+  c.a = known_id(json["a"], ids);
+  c.b = known_id(json["b"], ids);
+  if (c.a == c.b) json["b"].fail("another body than a");
+  c.kind = kind_of<cuboids::ContactKind>(json["kind"], cuboids::kContactKinds);
+  c.direction = json["direction"].unit_vector();
+  c.points = vectors(json["points"]);
+  c.forces = vectors(json["forces"]);
+  if (!c.forces.empty() && (c.kind == cuboids::ContactKind::fixed || c.forces.size() != c.points.size()))
+    json["forces"].fail("a force a point; none if fixed");
+  return c;
+}
+
+}  // namespace
+
+cuboids::Completion parse_cuboids_result(const std::string& text, const std::string& source) {
+  const nlohmann::json parsed = parse_json(text, source);
+  const JsonField json(parsed, source);
+  if (json["schema"].count() != 1) json["schema"].fail("1");
+  if (json["capability"].text() != "cuboids") json["capability"].fail("\"cuboids\"");
+  cuboids::Completion c;
+  Ids ids;
+  c.summary = read_summary(json["summary"]);
+  c.T_world_camera = transform(json["T_world_camera"]);
+  for (const JsonField& field : json["supports"].list()) c.supports.push_back(support(field, ids));
+  const Ids supports = ids;
+  for (const JsonField& field : json["cuboids"].list()) c.cuboids.push_back(cuboid(field, ids));
+  std::set<std::pair<int, int>> pairs;
+  for (const JsonField& field : json["contacts"].list()) {
+    c.contacts.push_back(contact(field, ids));
+    const auto [low, high] = std::minmax(c.contacts.back().a, c.contacts.back().b);
+    if (supports.count(c.contacts.back().b) != 0) field["b"].fail("a cuboid; a support stands first");
+    if (!pairs.emplace(low, high).second) field["b"].fail("a pair that no other contact has");
+  }
+  const JsonField stability = json["stability"], search = json["search"];
+  c.stability = {stability["residual"].number(0), stability["stable"].truth(), stability["margin"].number(0),
+                 stability["friction_needed"].number(0)};
+  c.fixed_contacts = json["fixed_contacts"].index(c.contacts.size() + 1);
+  c.extended_volume = json["extended_volume"].number(0);
+  for (const JsonField& field : json["unsupported"].list()) {
+    c.unsupported.push_back(known_id(field, ids));
+    if (supports.count(c.unsupported.back()) != 0) field.fail("the id of a cuboid");
+  }
+  c.search = {search["nodes"].count(), search["pruned"].count(), search["optimal"].truth()};
+  return c;
+}
+
+cuboids::Completion read_cuboids_result(const std::filesystem::path& path) {
+  return parse_cuboids_result(read_result_text(path), path.string());
+}
+
+}  // namespace unseen::report

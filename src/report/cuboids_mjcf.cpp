@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/cuboid_parts.h"
+#include "report/html.h"
+#include "report/palette.h"
+#include "unseen/report/cuboids_files.h"
+
+namespace unseen::report {
+namespace {
+
+using cuboids::Completion;
+
+std::string text_of(const Vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z()); }
+
+std::string quaternion_of(const Mat3& rotation) {
+  const Eigen::Quaterniond q(rotation);
+  return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}", q.w(), q.x(), q.y(), q.z());
+}
+
+/// The box as a geom, its place relative to `origin`.
+std::string geom_of(const cuboids::Cuboid& c, const Vec3& origin, int color) {
+  const Rgb rgb = frame_color(color);
+  return fmt::format("<geom name=\"{} geom\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" mass=\"{:.9g}\" rgba=\"{:.3f} {:.3f} {:.3f} 1\"/>\n",
+                     escape(name_of(c)), text_of(c.box.center - origin), quaternion_of(c.box.axes), text_of(c.box.half_size), c.mass(),
+                     rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+}
+
+/// Axes of a plane: z along its normal.
+Mat3 plane_axes(const Vec3& normal, const Vec3& along) {
+  Mat3 axes;
+  axes.col(2) = normal;
+  axes.col(0) = (along - along.dot(normal) * normal).normalized();
+  axes.col(1) = normal.cross(axes.col(0));
+  return axes;
+}
+
+/// A support without end is MuJoCo's plane, whose half space is solid; one with an outline is a slab below it, for there
+/// may be things beside or under a desk.
+std::string support_geom(const cuboids::Support& s) {
+  const std::string name = escape(name_of(s));
+  const std::string look = "rgba=\"0.8 0.8 0.78 1\"";
+  if (s.outline.size() < 3) {
+    const Vec3 origin = s.plane.project(Vec3::Zero());
+    return fmt::format("    <geom name=\"{}\" type=\"plane\" pos=\"{}\" quat=\"{}\" size=\"0 0 1\" {}/>\n", name, text_of(origin),
+                       quaternion_of(plane_axes(s.plane.normal, any_orthogonal(s.plane.normal))), look);
+  }
+  constexpr double kThickness = 0.02;  // m
+  const Mat3 axes = plane_axes(s.plane.normal, s.outline[1] - s.outline[0]);
+  Eigen::AlignedBox2d reach;
+  for (const Vec3& p : s.outline) reach.extend(Vec2(axes.col(0).dot(p), axes.col(1).dot(p)));
+  const Vec3 half(0.5 * reach.sizes().x(), 0.5 * reach.sizes().y(), 0.5 * kThickness);
+  const Vec3 center = axes.col(0) * reach.center().x() + axes.col(1) * reach.center().y() +
+                      s.plane.normal * (s.plane.offset - 0.5 * kThickness);
+  return fmt::format("    <geom name=\"{}\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" {}/>\n", name, text_of(center),
+                     quaternion_of(axes), text_of(half), look);
+}
+
+std::string group_body(const Completion& c, const RigidGroup& group) {
+  const bool unsupported = std::any_of(group.cuboids.begin(), group.cuboids.end(), [&](std::size_t i) {
+    return std::find(c.unsupported.begin(), c.unsupported.end(), c.cuboids[i].id) != c.unsupported.end();
+  });
+  Vec3 center = Vec3::Zero();
+  double mass = 0;
+  std::string name;
+  for (const std::size_t i : group.cuboids) {
+    center += c.cuboids[i].mass() * c.cuboids[i].box.center;
+    mass += c.cuboids[i].mass();
+    name += (name.empty() ? "" : " + ") + name_of(c.cuboids[i]);
+  }
+  center /= mass;
+  std::string text;
+  if (unsupported) text += "    <!-- nothing can support this: held where it was seen -->\n";
+  text += fmt::format("    <body name=\"{}\" pos=\"{}\">\n", escape(name), text_of(center));
+  if (!unsupported && group.support < 0) text += "      <freejoint/>\n";
+  for (const std::size_t i : group.cuboids) text += "      " + geom_of(c.cuboids[i], center, static_cast<int>(i));
+  return text + "    </body>\n";
+}
+
+}  // namespace
+
+std::string cuboids_mjcf(const Completion& c, double friction) {
+  // Every pair of boxes may touch at up to eight points; MuJoCo 2.2 wants to know before.
+  const std::size_t contacts = 200 + 100 * c.cuboids.size();
+  std::string text = fmt::format(
+      "<mujoco model=\"unseen\">\n"
+      "  <compiler angle=\"radian\"/>\n"
+      "  <option timestep=\"0.001\" gravity=\"0 0 -9.81\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\"/>\n"
+      "  <size nconmax=\"{}\" njmax=\"{}\"/>\n"
+      "  <default>\n    <geom friction=\"{:.9g} 0.005 0.0001\"/>\n  </default>\n"
+      "  <visual>\n    <global offwidth=\"1280\" offheight=\"960\"/>\n  </visual>\n"
+      "  <worldbody>\n    <light directional=\"true\" pos=\"0 0 3\" dir=\"0.2 0.3 -1\"/>\n",
+      contacts, 4 * contacts, friction);
+  for (const cuboids::Support& support : c.supports) text += support_geom(support);
+  for (const RigidGroup& group : rigid_groups(c)) text += group_body(c, group);
+  return text + "  </worldbody>\n</mujoco>\n";
+}
+
+}  // namespace unseen::report

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the unseen authors
+"""unseen cuboids: what it prints and writes, and the input that it refuses."""
+
+import json
+import unittest
+import xml.etree.ElementTree
+
+import jsonschema
+import numpy
+
+import frames
+from harness import SOURCE, CliTest, contents, glb_json
+from scene import scenes_of
+
+FILES = {"result.json", "scene.glb", "scene.xml", "scene.urdf", "report.html"}
+
+
+class Cuboids(CliTest):
+    def solve(self, *more, **fields):
+        frames.write_frame(self.folder, **fields)
+        run = self.unseen("cuboids", "frame.json", "-o", "out", *more)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run
+
+    def result(self, out="out"):
+        return json.loads((self.folder / out / "result.json").read_text())
+
+    def test_writes_all_files_and_they_agree(self):
+        self.solve()
+        out = self.folder / "out"
+        self.assertEqual(set(contents(out)), FILES)
+        result = self.result()
+        schema = json.loads((SOURCE / "docs/schema/cuboids.result.schema.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        jsonschema.Draft202012Validator(schema).validate(result)
+        self.assertEqual(result["summary"]["status"], "solved")
+        boxes = result["cuboids"]
+        self.assertGreater(len(boxes), 0)
+        for box in boxes:
+            self.assertAlmostEqual(box["mass"], box["density"] * numpy.prod(box["size"]), 9)
+            self.assertTrue(numpy.allclose(numpy.array(box["axes"]) @ numpy.array(box["axes"]).T, numpy.eye(3), atol=1e-6))
+
+        names = [node["name"] for node in glb_json(out / "scene.glb")["nodes"]]
+        self.assertEqual(len(names), len(set(names)))
+        self.assertIn("points", names)
+        for box in boxes:
+            self.assertTrue(any(name.startswith(f"box {box['id']}") for name in names), names)
+        geoms = xml.etree.ElementTree.parse(out / "scene.xml").findall(".//geom[@mass]")
+        self.assertEqual(sorted(float(g.get("mass")) for g in geoms), sorted(float(f"{b['mass']:.9g}") for b in boxes))
+        links = {link.get("name") for link in xml.etree.ElementTree.parse(out / "scene.urdf").findall("link")}
+        self.assertEqual(links, {"world"} | {f"box_{b['id']}" for b in boxes} | {f"support_{s['id']}" for s in result["supports"]})
+
+    def test_the_page_agrees_with_the_result(self):
+        self.solve()
+        result = self.result()
+        scene, = scenes_of(self.folder / "out/report.html")
+        self.assertEqual(scene.header["command"], "unseen cuboids frame.json -o out")
+        self.assertEqual(scene.header["summary"], result["summary"])
+        boxes = scene["boxes"]
+        centers = scene.array(boxes["centers"]) + scene.header["offset"]
+        self.assertTrue(numpy.allclose(centers, [b["center"] for b in result["cuboids"]], atol=1e-6))
+        self.assertTrue(numpy.allclose(scene.array(boxes["sizes"]), [b["size"] for b in result["cuboids"]], atol=1e-6))
+        half, seen = scene.array(boxes["sizes"]) / 2, scene.array(boxes["seen"])
+        self.assertTrue((seen[:, :3] >= -half - 1e-6).all() and (seen[:, 3:] <= half + 1e-6).all())
+        self.assertEqual(len(scene["contacts"]["edge_names"]), len(result["contacts"]))
+        self.assertEqual(len(scene["contacts"]["node_names"]), len(result["cuboids"]) + len(result["supports"]))
+        carried = scene.array(scene["contacts"]["vectors"])
+        total = sum((numpy.sum(c["forces"], 0) for c in result["contacts"] if c["forces"] and c["a"] in {s["id"] for s in result["supports"]}),
+                    numpy.zeros(3))
+        of_supports = [k for k, edge in enumerate(scene.array(scene["contacts"]["edges"])) if edge[0] < len(result["supports"])]
+        self.assertTrue(numpy.allclose(carried[of_supports].sum(0), total, atol=1e-4))
+
+        depth, owner, _ = frames.render()
+        self.assertEqual(scene["points"]["positions"]["count"], int(numpy.isfinite(depth).sum()))
+        self.assertEqual({tuple(c) for c in scene.array(scene["points"]["quantities"][0]["array"])},
+                         {frames.COLORS[i] for i in set(owner[owner >= 0])})
+        camera = scene["camera"]
+        self.assertTrue(numpy.allclose(numpy.reshape(camera["T_world_camera"], (4, 4)), result["T_world_camera"]))
+        picture = scene.array(scene[camera["image"]]["data"]).tobytes()
+        self.assertEqual((picture[:3], picture[-2:]), (b"\xff\xd8\xff", b"\xff\xd9"))
+
+    def test_prints_a_few_friendly_lines(self):
+        run = self.solve()
+        self.assertTrue(3 <= len(run.stdout.splitlines()) <= 6, run.stdout)
+        for word in ("box", "contact", "out/report.html"):
+            self.assertIn(word, run.stdout)
+        self.assertEqual(self.unseen("cuboids", "frame.json", "-o", "out", "--quiet").stdout, "")
+        run = self.unseen("cuboids", "frame.json", "-o", "out", "--json")
+        self.assertEqual(json.loads(run.stdout), self.result()["summary"])
+
+    def test_no_report(self):
+        self.solve("--no-report")
+        self.assertEqual(set(contents(self.folder / "out")), FILES - {"report.html"})
+
+    def test_options_reach_the_result(self):
+        self.solve("--density", "450", "--mu", "0.5")
+        result = self.result()
+        self.assertEqual((result["options"]["density"], result["options"]["friction"]), (450, 0.5))
+        self.assertEqual({box["density"] for box in result["cuboids"]}, {450})
+        geom = xml.etree.ElementTree.parse(self.folder / "out/scene.xml").find("default/geom")
+        self.assertEqual(float(geom.get("friction").split()[0]), 0.5)
+
+    def test_given_supports(self):
+        up = frames.render()[2]
+        text = ",".join(f"{c:.9f}" for c in up) + ",-0.8,desk"
+        self.solve("--support", text)
+        result = self.result()
+        self.assertEqual(result["options"]["support"], text)
+        self.assertEqual([s["kind"] for s in result["supports"]], ["desk"])
+        self.assertTrue(numpy.allclose(numpy.array(result["T_world_camera"])[2, :3], up, atol=1e-6))
+        self.assertAlmostEqual(result["T_world_camera"][2][3], 0.8, 6)
+
+    def test_a_folder_with_usual_names(self):
+        frames.write_frame(self.folder / "scan")
+        frame = json.loads((self.folder / "scan/frame.json").read_text())
+        (self.folder / "scan/frame.json").unlink()
+        (self.folder / "scan/intrinsics.json").write_text(json.dumps(frame["camera"]))
+        run = self.unseen("cuboids", "scan", "-o", "out")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("Boxes of scan", (self.folder / "out/report.html").read_text())
+
+    def test_view_writes_the_page_again(self):
+        self.solve("--density", "400")
+        before = (self.folder / "out/report.html").read_bytes()
+        run = self.unseen("view", "out")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        first, = scenes_of(self.folder / "out/report.html")
+        self.assertEqual(first.header["command"], "unseen cuboids frame.json -o out --density 400")
+        self.assertEqual((self.folder / "out/report.html").read_bytes(), before)
+        (self.folder / "depth.png").unlink()
+        run = self.unseen("view", "out")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("without depth and photograph", run.stderr)
+        again, = scenes_of(self.folder / "out/report.html")
+        self.assertEqual({s["id"] for s in again.header["structures"]}, {"boxes", "contacts", "supports"})
+        self.assertEqual(again["boxes"], first["boxes"])
+
+
+class Refused(CliTest):
+    """Exit code 3 (2 for the command line), one line, nothing written, and an earlier result stays."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "out").mkdir()
+        (self.folder / "out/result.json").write_text("an earlier result")
+
+    def assert_refused(self, *words, name="frame.json", arguments=(), code=3):
+        before = contents(self.folder)
+        run = self.unseen("cuboids", name, "-o", "out", *arguments, timeout=60)
+        self.assert_one_line(run, code, *words)
+        self.assertEqual(contents(self.folder), before)
+
+    def test_no_depth(self):
+        self.assert_refused("nowhere.json", name="nowhere.json")
+        frames.write_frame(self.folder, depth=None)
+        self.assert_refused("frame.json", "depth")
+        frames.write_frame(self.folder, depth="gone.png")
+        self.assert_refused("frame.json", "gone.png")
+        self.assert_refused("depth.png", name="out")
+
+    def test_nothing_measured(self):
+        frames.write_frame(self.folder)
+        (self.folder / "depth.png").write_bytes(frames.png(numpy.zeros((48, 64), numpy.uint16)))
+        (self.folder / "color.png").write_bytes(frames.png(numpy.zeros((48, 64, 3), numpy.uint8)))
+        self.assert_refused("depth.png", "none of 3072 pixels")
+
+    def test_wrong_units(self):
+        frames.write_frame(self.folder, depth_scale=1)
+        self.assert_refused("depth.png", "a scene of", "depth_scale 1000")
+        frames.write_frame(self.folder, depth_scale=1e6)
+        self.assert_refused("depth.png", "a scene of 0.00", "depth_scale 1000")
+
+    def test_other_sizes(self):
+        frames.write_frame(self.folder)
+        (self.folder / "color.png").write_bytes(frames.png(numpy.zeros((48, 64, 3), numpy.uint8)))
+        self.assert_refused("color.png", "64 x 48", "320 x 240")
+
+    def test_intrinsics(self):
+        frames.write_frame(self.folder, camera=None)
+        self.assert_refused("frame.json", "camera", "fx, fy, cx and cy")
+        frames.write_frame(self.folder, camera={"fx": 525, "fy": 525, "cx": 320})
+        self.assert_refused("frame.json", "cy is missing")
+
+    def test_hints(self):
+        frames.write_frame(self.folder, up=[0, -3, 0])
+        self.assert_refused("frame.json", "up", "length 3")
+        frames.write_frame(self.folder, supports=[{"normal": [0, 0, 0], "offset": 1, "kind": "desk"}])
+        self.assert_refused("frame.json", "supports[0].normal")
+        frames.write_frame(self.folder, strokes=[{"label": "a", "points": [[400, 3]]}])
+        self.assert_refused("frame.json", "strokes[0].points[0]", "(400, 3)")
+
+    def test_hostile(self):
+        frames.write_frame(self.folder)
+        for text in ("", "{", "[" * 100000, '{"depth": {}}', '{"depth": "depth.png", "camera": 1e999}', "\x00\x01"):
+            with self.subTest(text=text[:20]):
+                (self.folder / "frame.json").write_text(text)
+                self.assert_refused("frame.json")
+
+    def test_usage(self):
+        frames.write_frame(self.folder)
+        for arguments in (("--support", "0,0,0,1"), ("--support", "up"), ("--friction", "-1"), ("--mu", "x"), ("--boxes", "3")):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(arguments=arguments, code=2)
+        self.assert_one_line(self.unseen("cuboids", "frame.json"), 2, "-o OUT")
+        self.assert_one_line(self.unseen("cuboids", "-o", "out"), 2, "FRAME")
+        help_text = self.unseen("cuboids", "--help").stdout
+        for flag in ("--friction", "--density", "--support", "--no-report", "--check"):
+            self.assertIn(flag, help_text)
+
+
+if __name__ == "__main__":
+    unittest.main()
