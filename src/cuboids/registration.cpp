@@ -13,9 +13,9 @@ namespace {
 
 constexpr std::size_t kNeighbours = 12;
 constexpr double kPointShare = 0.02;  // weight of the distance to the point beside that to its plane
-constexpr int kRounds = 60;
-constexpr double kShrink = 0.93, kLeastReach = 0.25;  // of the reach, a round and at last
-constexpr double kStill = 1e-7;                       // m and radians: nothing moves any more
+constexpr int kRounds = 40;
+constexpr double kShrink = 0.8, kLeastReach = 0.25;  // of the reach, a round and at last
+constexpr double kStill = 1e-5;                       // m and radians: nothing moves any more
 
 struct Points {
   const std::vector<Vec3>& points;

@@ -16,8 +16,8 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr std::size_t kStructurePoints = 3000, kModelPoints = 3000, kFewPoints = 500;
-constexpr std::size_t kRefined = 4;   // of the sampled turns
+constexpr std::size_t kStructurePoints = 3000, kModelPoints = 3000, kFewPoints = 300, kRefinePoints = 600;
+constexpr std::size_t kRefined = 3;   // of the sampled turns
 constexpr double kReach = 0.1;        // of the diagonal: partners of the refinement
 
 struct Extent {
@@ -139,7 +139,7 @@ struct Matcher {
   /// Drawn to the structure's surface.
   RetrievedModel refined(const std::vector<Vec3>& points, const SampledSurface& surface, const RetrievedModel& start) const {
     std::vector<Vec3> scaled;
-    for (const Vec3& p : points) scaled.push_back(start.scale * p);
+    for (const Vec3& p : every_nth(points, kRefinePoints)) scaled.push_back(start.scale * p);
     RetrievedModel out = start;
     out.T_world_model = register_upright(scaled, surface, start.T_world_model, kReach * structure.diagonal()).T_target_source;
     return out;

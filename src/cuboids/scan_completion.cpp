@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kSmallest = 0.01, kLargest = 100.0;  // m: sizes of a model
 constexpr double kSameLevel = 0.02;                   // m
-constexpr std::size_t kModelPoints = 60'000, kScenePoints = 500, kRefinePoints = 4000, kFreePoints = 500;
+constexpr std::size_t kModelPoints = 30'000, kScenePoints = 200, kRefinePoints = 2000, kFreePoints = 200;
 constexpr double kNear = 0.02;     // m: points so near to a cuboid are its own
 constexpr double kOnSupport = 0.01;  // m
 constexpr double kLeastExplained = 0.3;

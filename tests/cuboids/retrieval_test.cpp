@@ -21,7 +21,7 @@ RetrievalModel model(const std::string& name, const std::vector<OrientedBox>& bo
 
 std::vector<RetrievalModel> repository() {
   return {model("block", {box_at({0, 0, 0}, {0.5, 0.5, 0.9})}, 0.2, 1.0), model("chair", chair(), 1.75, 40.0),
-          model("sofa", sofa(), 0.0, 1000.0), model("stool", {chair().begin(), chair().begin() + 1}, 0.0, 1.0),
+          model("sofa", sofa(), 0.0, 1000.0), model("stool", {chair()[0]}, 0.0, 1.0),
           model("table", table(), 0.9, 0.01)};
 }
 
