@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kSmallest = 0.01, kLargest = 100.0;  // m: sizes of a model
 constexpr double kSameLevel = 0.02;                   // m
-constexpr std::size_t kModelPoints = 30'000, kScenePoints = 200, kRefinePoints = 2000, kFreePoints = 200;
+constexpr std::size_t kModelPoints = 40'000, kScenePoints = 200, kRefinePoints = 2000, kFreePoints = 200;
 constexpr double kNear = 0.02;     // m: points so near to a cuboid are its own
 constexpr double kOnSupport = 0.01;  // m
 constexpr double kLeastExplained = 0.3;
@@ -178,7 +178,10 @@ ScanCompletion complete_scan(const RgbdFrame& frame, const Completion& scene, co
       register_upright(every_nth(of_matches, kRefinePoints), surface, pose.T_world_model.inverse(), options.reach);
   out.T_world_model = fit.T_target_source.inverse();
   out.rms = fit.rms;
-  out.explained = fit.matched;
+  const auto on_model = std::count_if(of_matches.begin(), of_matches.end(), [&](const Vec3& p) {
+    return surface.nearest(fit.T_target_source * p, options.reach).has_value();
+  });
+  out.explained = of_matches.empty() ? 0.0 : static_cast<double>(on_model) / static_cast<double>(of_matches.size());
   out.found = out.explained >= kLeastExplained;
   for (const BoxMatch& match : pose.matches) out.matches.push_back({match.model_box, scene.cuboids[match.cuboid].id});
   if (out.found) paste(frame, scene, model, out);
