@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "commands.h"
 #include "cuboids_applications.h"
+#include "cuboids_check.h"
 #include "session.h"
 #include "unseen/core/error.h"
 #include "unseen/cuboids/cuboids.h"
@@ -29,7 +31,8 @@ namespace {
 /// Everything that `unseen cuboids` can be told.
 struct Arguments {
   std::string input, out, shell_command;
-  std::vector<std::string> supports;
+  std::vector<std::string> supports;  ///< planes, or with --check the names of blocks
+  CheckArguments check;
   CommonFlags common;
   bool no_report = false;
   GivenOptions given;
@@ -50,17 +53,21 @@ void print_summary(const cuboids::Completion& c, const Arguments& args) {
     fmt::print("no box found\n");
   } else {
     std::vector<std::string> supports;
-    for (const cuboids::Support& s : c.supports) supports.emplace_back(cuboids::kSupportKinds[static_cast<int>(s.kind)]);
+    for (const cuboids::Support& s : c.supports)
+      supports.emplace_back(cuboids::kSupportKinds[static_cast<int>(s.kind)]);
     fmt::print("{} ({}), {} completed into the hidden part: {:.3g} l\n", plural(c.cuboids.size(), "box", "boxes"),
                fmt::join(supports, ", "), completed, 1000.0 * c.extended_volume);
     fmt::print("{}, {} fixed{}\n", plural(c.contacts.size(), "contact", "contacts"), c.fixed_contacts,
                c.search.optimal ? " (proven to be the fewest)" : "");
     if (c.stability.stable)
-      fmt::print("stands: bears a sideways push of {:.2f} g, needs a friction of {:.2f} (has {:.4g})\n", c.stability.margin,
-                 c.stability.friction_needed, args.options.method.friction);
+      fmt::print("stands: bears a sideways push of {:.2f} g, needs a friction of {:.2f} (has {:.4g})\n",
+                 c.stability.margin, c.stability.friction_needed, args.options.method.friction);
     else
-      fmt::print("does not stand: residual {:.2g} (limit {:.2g})\n", c.stability.residual, args.options.method.stable_residual);
-    if (!c.unsupported.empty()) fmt::print("nothing can support {}: {}\n", plural(c.unsupported.size(), "box", "boxes"), fmt::join(c.unsupported, ", "));
+      fmt::print("does not stand: residual {:.2g} (limit {:.2g})\n", c.stability.residual,
+                 args.options.method.stable_residual);
+    if (!c.unsupported.empty())
+      fmt::print("nothing can support {}: {}\n", plural(c.unsupported.size(), "box", "boxes"),
+                 fmt::join(c.unsupported, ", "));
   }
   fmt::print("{}: {}\n", args.no_report ? "result" : "report",
              (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
@@ -71,7 +78,8 @@ void write_files(const cuboids::Completion& c, const RgbdFrame& frame, Arguments
   const report::InputRecord input = {args.input, io::sha256(args.input, context)};
   if (!args.no_report)
     write_text(out.file("report.html"),
-               report::page_of(report::cuboids_title(input), {report::cuboids_scene(c, input, table, args.shell_command, frame)}));
+               report::page_of(report::cuboids_title(input),
+                               {report::cuboids_scene(c, input, table, args.shell_command, frame)}));
   write_text(out.file("result.json"), report::cuboids_json(c, input, table));
   if (c.summary.status == Status::infeasible) return;
   write_text(out.file("scene.glb"), report::cuboids_glb(c, frame));
@@ -81,8 +89,17 @@ void write_files(const cuboids::Completion& c, const RgbdFrame& frame, Arguments
 
 int run(Arguments& args) {
   OptionTable table = args.options.table();
-  if (!args.supports.empty()) args.given.emplace_back("support", fmt::format("{}", fmt::join(args.supports, ";")));
+  const bool check = !args.check.assembly.empty();
+  if (!args.supports.empty() && !check)
+    args.given.emplace_back("support", fmt::format("{}", fmt::join(args.supports, ";")));
   if (resolve_or_dump(table, args.common, "cuboids", args.given)) return kSolved;
+  if (check) {
+    if (!args.input.empty() || !args.out.empty()) throw UsageError("--check takes neither FRAME nor -o OUT");
+    args.check.supports = args.supports;
+    args.check.friction = args.options.method.friction;
+    return run_check(args.check, args.common);
+  }
+  if (!args.check.up.empty()) throw UsageError("--up belongs to --check; a frame file has its own \"up\"");
   require(args.input, "FRAME");
   require(args.out, "-o OUT");
   const std::vector<GivenSupport> supports = io::parse_supports(args.options.support, kCommandLine);
@@ -112,8 +129,16 @@ int run(Arguments& args) {
 }  // namespace
 
 OptionTable CuboidsOptions::table() {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
   OptionTable table = cuboids::describe(method);
-  table.add({"support", &support, "", "supports instead of those of the frame: nx,ny,nz,d[,kind] with n·p = d in the camera's coordinates; several separated by ;"});
+  table.add({"support",
+             &support,
+             "",
+             "supports instead of those of the frame: nx,ny,nz,d[,kind] with n·p = d in the camera's coordinates; "
+             "several separated by ;",
+             -kInf,
+             kInf,
+             {}});
   return table;
 }
 
@@ -121,23 +146,31 @@ Command add_cuboids(CLI::App& app, const std::string& shell_command) {
   auto args = std::make_shared<Arguments>();
   args->shell_command = shell_command;
   CLI::App* sub = app.add_subcommand("cuboids", "Complete a single RGB-D frame by boxes that stand");
-  sub->add_option("FRAME", args->input, "a frame file (FRAME.json), or a folder with frame.json or depth.png and intrinsics.json");
+  sub->add_option("FRAME", args->input,
+                  "a frame file (FRAME.json), or a folder with frame.json or depth.png and intrinsics.json");
   sub->add_option("-o", args->out, "the folder for the result; made if it does not exist")->type_name("OUT");
   add_flags(*sub, cuboids::describe(args->options.method), args->given);
   sub->add_option("--support", args->supports,
-                  "a support instead of those of the frame or found: n·p = d in the camera's coordinates; kind: ground, desk, wall or "
-                  "ceiling; may be repeated")
-      ->type_name("NX,NY,NZ,D[,KIND]")
+                  "a support instead of those of the frame or found: n·p = d in the camera's coordinates; kind: "
+                  "ground, desk, wall or "
+                  "ceiling; may be repeated. With --check the name of a block that does not move")
+      ->type_name("NX,NY,NZ,D[,KIND]|ID")
       ->allow_extra_args(false);
   sub->add_option_function<std::string>(
-         "--mu", [&given = args->given](const std::string& text) { given.emplace_back("friction", text); }, "the same as --friction")
+         "--mu", [&given = args->given](const std::string& text) { given.emplace_back("friction", text); },
+         "the same as --friction")
       ->type_name("X");
   add_flags(*sub, args->applications);
+  sub->add_option("--check", args->check.assembly, "only say whether an assembly of blocks stands; exit code 4 if not")
+      ->type_name("ASSEMBLY.json");
+  sub->add_option("--up", args->check.up, "with --check: the direction that points up (default 0,0,1)")
+      ->type_name("X,Y,Z");
   sub->add_flag("--no-report", args->no_report, "leave out report.html");
   add_flags(*sub, args->common);
   sub->footer(
       "Examples:\n  unseen cuboids frame.json -o out\n  unseen cuboids kitchen/ -o out --density 500\n"
-      "  unseen cuboids frame.json -o out --support 0,-0.83,-0.55,-0.71,desk");
+      "  unseen cuboids frame.json -o out --support 0,-0.83,-0.55,-0.71,desk\n"
+      "  unseen cuboids --check arch.json --support 0 --up -1,0,0 --mu 0.84");
   return {sub, [args] { return run(*args); }};
 }
 

@@ -9,7 +9,7 @@
 #include "session.h"
 #include "unseen/cuboids/synth.h"
 #include "unseen/io/output_folder.h"
-#include "unseen/io/write_image.h"
+#include "unseen/io/write_png.h"
 #include "unseen/report/cuboids_truth.h"
 #include "unseen/report/planes_result.h"
 #include "write_text.h"

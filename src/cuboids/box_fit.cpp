@@ -15,7 +15,7 @@ const double kFaceCosine = std::cos(radians(20.0));
 constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
-constexpr double kSliceQuantile = 0.8;
+constexpr double kSliceQuantile = 0.9;
 constexpr std::size_t kMostRectanglePoints = 1500;
 
 double quantile(std::vector<double> values, double share) {
@@ -149,7 +149,7 @@ BoxAxes box_axes(const Observation& seen, std::span<const int> points, std::span
     yaw = rectangle_turn(flat);
     result.yaw_information = kEnoughInformation / 4.0;
   }
-  result.axes = turned(yaw);
+  result.axes = turned(std::remainder(yaw, 0.5 * kPi));
   return result;
 }
 

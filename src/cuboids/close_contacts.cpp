@@ -10,7 +10,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kParallel = 0.99;       // cosine between a face's normal and that of a contact
-constexpr double kMostShrink = 0.4;      // of a size, by one face
+constexpr double kMostShrink = 0.3;      // of the size as fitted, by one face
 constexpr double kHiddenFreedom = 100.0; // variance of a face that was moved, against 1 of a seen one
 
 /// The face of a box that a contact with outward normal `n` acts on; none if it is an edge or a vertex.
@@ -57,7 +57,8 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
   for (std::size_t i = 0; i < arrangement.boxes.size(); ++i) {
     Extension extension;
     for (int face = 0; face < 6; ++face)
-      extension[face] = std::max(moves[6 * i + face], -kMostShrink * 2.0 * arrangement.boxes[i].half_size[face / 2]);
+      extension[face] = std::max(moves[6 * i + face], -kMostShrink * 2.0 * problem.cuboids[i].initial.half_size[face / 2] -
+                                                          arrangement.extension[i][face]);
     arrangement.boxes[i] = extended(arrangement.boxes[i], extension);
     arrangement.solids[i] = solid_of(arrangement.boxes[i]);
     for (int face = 0; face < 6; ++face) arrangement.extension[i][face] += extension[face];

@@ -46,6 +46,7 @@ bool any_resists(const Collapse& c, const Problem& problem, const Arrangement& a
 /// The part of a collapse that moves some bodies only.
 Collapse restricted(const Collapse& c, const std::vector<int>& bodies) {
   Collapse out;
+  out.gravity = c.gravity;
   out.motion.resize(c.motion.size());
   for (const int body : bodies) out.motion[body] = c.motion[body];
   return out;
@@ -84,16 +85,17 @@ double proven_residual(const Collapse& c, const Problem& problem, const Arrangem
     if (held[i] || c.motion[i].is_zero()) continue;
     const OrientedBox& box = arrangement.boxes[i - problem.supports_count()];
     const double weight = problem.cuboid(i).density * box.volume();
-    power -= weight * c.motion[i].at(box.center).z();
+    power += weight * c.motion[i].at(box.center).dot(c.gravity);
     most += weight * speed(c.motion[i], box.center, box.half_size.norm());
   }
   return most > 0.0 ? std::max(0.0, power / most) : 0.0;
 }
 
-std::vector<Collapse> collapses_of(const Balance& balance, const Structure& structure, const Problem& problem,
+std::vector<Collapse> collapses_of(const Balance& balance, const Vec3& gravity, const Structure& structure, const Problem& problem,
                                    const Arrangement& arrangement, const std::vector<Touch>& touches,
                                    const std::vector<char>& held) {
   Collapse whole;
+  whole.gravity = gravity;
   whole.motion.resize(problem.bodies());
   double fastest = 0.0;
   for (const Vec6& v : balance.motion) fastest = std::max(fastest, v.norm());
@@ -101,11 +103,9 @@ std::vector<Collapse> collapses_of(const Balance& balance, const Structure& stru
     const int g = structure.group[i];
     const Body& body = structure.bodies[g];
     if (body.is_static || balance.motion[g].norm() < 1e-6 * fastest) continue;
-    // The dual of a force in units of weight is a velocity over weight.
-    const Vec3 velocity = balance.motion[g].head<3>() / body.weight;
     Twist& t = whole.motion[i];
-    t.angular = balance.motion[g].tail<3>() / (body.weight * body.half_size);
-    t.linear = velocity - t.angular.cross(body.center);
+    t.angular = balance.angular_velocity(g, body);
+    t.linear = balance.velocity(g, body) - t.angular.cross(body.center);
   }
   const auto proves = [&](const Collapse& c) {
     return proven_residual(c, problem, arrangement, touches, held) >= problem.stable_residual;
@@ -136,13 +136,13 @@ bool weight_may_help(const Collapse& c, const Problem& problem, const Arrangemen
     const int k = i - problem.supports_count();
     const double density = problem.cuboid(i).density;
     const OrientedBox &now = arrangement.boxes[k], &full = largest.boxes[k];
-    power -= density * now.volume() * c.motion[i].at(now.center).z();
+    power += density * now.volume() * c.motion[i].at(now.center).dot(c.gravity);
     const double added = density * (full.volume() - now.volume());
     double lowest = 0.0;  // power of the added weight where it hinders most
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 p = full.center + full.axes * Vec3((corner & 1 ? 1 : -1) * full.half_size.x(), (corner & 2 ? 1 : -1) * full.half_size.y(),
                                                     (corner & 4 ? 1 : -1) * full.half_size.z());
-      lowest = std::min(lowest, -c.motion[i].at(p).z());
+      lowest = std::min(lowest, c.motion[i].at(p).dot(c.gravity));
     }
     power += added * lowest;
     most += density * full.volume() * (speed(c.motion[i], now.center, full.half_size.norm()) +

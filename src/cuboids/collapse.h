@@ -18,6 +18,7 @@ struct Twist {
 /// A way in which an arrangement collapses: gravity does work, and no contact resists. It proves the same of every
 /// other arrangement that does not resist it either.
 struct Collapse {
+  Vec3 gravity = -Vec3::UnitZ();  ///< g, a push included
   std::vector<Twist> motion;  ///< a body; zero for those that stay
 };
 
@@ -27,7 +28,7 @@ double proven_residual(const Collapse& collapse, const Problem& problem, const A
 
 /// Collapses of an unstable arrangement from the unbalanced rest of its best balance, as small as can be: single
 /// bodies and groups that move by themselves where these suffice. None if numbers are too close to call.
-std::vector<Collapse> collapses_of(const Balance& balance, const Structure& structure, const Problem& problem,
+std::vector<Collapse> collapses_of(const Balance& balance, const Vec3& gravity, const Structure& structure, const Problem& problem,
                                    const Arrangement& arrangement, const std::vector<Touch>& touches,
                                    const std::vector<char>& held);
 

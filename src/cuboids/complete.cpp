@@ -61,6 +61,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   Problem problem;
   problem.friction = options.friction;
   problem.stable_residual = options.stable_residual;
+  problem.push = options.push;
   {
     const Stage stage(context, summary, "hypotheses");
     std::vector<double> tolerance = contact_tolerance(view, result.cuboids);

@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kWeakEdge = 60, kStrongEdge = 150;  // gradient of Canny's 3 × 3 operator, of 8-bit grey
+constexpr double kWeakEdge = 30, kStrongEdge = 80;  // gradient of Canny's 3 × 3 operator, of 8-bit grey
 constexpr double kSameDirection = 0.45;              // rad
+constexpr double kFewestVotes = 0.4;                 // of the samples of an edge
+constexpr double kFarCost = 0.03;                    // a pixel
+constexpr double kAgree = 2.5;                       // pixels
 constexpr double kSamplePixels = 6.0;
 constexpr int kMostSamples = 24;                     // an edge
+constexpr double kSlant = 3.0;
 constexpr double kAside = 4.0;                       // pixels, where it is asked what is beside an edge
 
 }  // namespace
@@ -42,19 +47,44 @@ double ImageEdges::distance(const Vec2& p) const {
   return x < 0 || y < 0 || x >= width_ || y >= height_ ? 255.0 : distance_[static_cast<std::size_t>(y) * width_ + x];
 }
 
-std::optional<Vec2> ImageEdges::nearest(const Vec2& p, const Vec2& across, double reach) const {
+std::vector<double> ImageEdges::offsets(const Vec2& p, const Vec2& across, double reach) const {
   const double wanted = std::atan2(across.y(), across.x());
-  for (double d = 0; d <= reach; d += 0.5)
-    for (const double sign : {1.0, -1.0}) {
-      const Vec2 q = p + sign * d * across;
-      const int x = static_cast<int>(std::lround(q.x())), y = static_cast<int>(std::lround(q.y()));
-      if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
-      const std::size_t i = static_cast<std::size_t>(y) * width_ + x;
-      if (!edge_[i]) continue;
-      const double turn = std::abs(std::remainder(direction_[i] - wanted, kPi));
-      if (turn < kSameDirection) return Vec2(x, y);
+  std::vector<double> found;
+  int last = -1;
+  for (double d = -reach; d <= reach; d += 0.5) {
+    const int x = static_cast<int>(std::lround(p.x() + d * across.x())), y = static_cast<int>(std::lround(p.y() + d * across.y()));
+    if (x < 0 || y < 0 || x >= width_ || y >= height_) continue;
+    const int i = y * width_ + x;
+    if (!edge_[i] || i == last || std::abs(std::remainder(direction_[i] - wanted, kPi)) > kSameDirection) continue;
+    found.push_back((Vec2(x, y) - p).dot(across));
+    last = i;
+  }
+  return found;
+}
+
+std::vector<double> agreed_offsets(const ImageEdges& edges, const std::vector<Vec2>& points, const std::vector<Vec2>& across,
+                                   double reach) {
+  const int half = static_cast<int>(reach) + 1;
+  std::vector<std::vector<double>> found;
+  std::vector<double> votes(2 * half + 1, 0.0);
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    found.push_back(edges.offsets(points[n], across[n], reach));
+    for (const double d : found.back()) votes[static_cast<int>(std::lround(d)) + half] += 1.0;
+  }
+  int best = -1;
+  double best_score = kFewestVotes * static_cast<double>(points.size());
+  for (int b = 1; b + 1 < static_cast<int>(votes.size()); ++b) {
+    const double score = (votes[b - 1] + votes[b] + votes[b + 1]) * (1.0 - kFarCost * std::abs(b - half));
+    if (score > best_score) best_score = score, best = b;
+  }
+  std::vector<double> offsets(points.size(), std::numeric_limits<double>::quiet_NaN());
+  if (best < 0) return offsets;
+  for (std::size_t n = 0; n < points.size(); ++n)
+    for (const double d : found[n]) {
+      const double off = std::abs(d - (best - half));
+      if (off < kAgree && !(std::abs(offsets[n] - (best - half)) <= off)) offsets[n] = d;
     }
-  return std::nullopt;
+  return offsets;
 }
 
 Vec3 local_point(const EdgeSample& s, const Vec3& low, const Vec3& high) {
@@ -76,7 +106,7 @@ std::vector<EdgeSample> visible_edge_samples(const OrientedBox& box, const RgbdF
       for (const double side_j : {-1.0, 1.0}) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
         if (!faces_camera(i, side_i) && !faces_camera(j, side_j)) continue;
-        EdgeSample sample{i, j, k, side_i, side_j, 0};
+        EdgeSample sample{i, j, k, side_i, side_j, 0, faces_camera(i, side_i) && faces_camera(j, side_j)};
         const auto world = [&](double share) {
           sample.share = share;
           return Vec3(box.center + box.axes * local_point(sample, -box.half_size, box.half_size));
@@ -92,7 +122,9 @@ std::vector<EdgeSample> visible_edge_samples(const OrientedBox& box, const RgbdF
           Vec3 outward = ray.cross(along).normalized();
           if (outward.dot(p - box.center) < 0.0) outward = -outward;
           const Vec3 step = kAside * view.spacing(p) * outward;
-          if (view.at(p - step) == DepthView::Space::hidden || view.at(p + step) == DepthView::Space::hidden) continue;
+          // The box's own surface beside its edge lies nearer by some steps where it is seen at a slant.
+          const Vec3 before = p - kSlant * step.norm() * ray;
+          if (view.at(before - step) == DepthView::Space::hidden || view.at(before + step) == DepthView::Space::hidden) continue;
           samples.push_back(sample);
         }
       }

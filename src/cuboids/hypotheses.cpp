@@ -53,51 +53,74 @@ void propose_direct(Proposer& p, int a, int b, std::vector<FaceMove>& candidates
   }
 }
 
-/// Bodies that stand on a body, directly or on others that do, and it itself.
-std::vector<int> load_of(const Proposer& p, int body) {
-  std::vector<int> load = {body};
-  for (std::size_t i = 0; i < load.size(); ++i)
-    for (const int next : p.above[load[i]])
-      if (std::find(load.begin(), load.end(), next) == load.end()) load.push_back(next);
-  return load;
-}
-
 double far_end(const OrientedBox& box, const Vec3& direction) {
   return direction.dot(box.center) + (box.axes.transpose() * direction).cwiseAbs().dot(box.half_size);
 }
 
-/// Lengths by which a face of a carrier moves to bear another body just so, to reach under its centre of mass, under
-/// that of all its load, and under the far ends of both.
-std::vector<double> lengths_under(const Proposer& p, const OrientedBox& carrier, int face, int upper, double overlap) {
-  const Vec3 direction = face_normal(carrier, face);
-  const OrientedBox& box = p.box(upper);
-  Vec3 sum = Vec3::Zero();
-  double mass = 0.0, end = 0.0;
-  for (const int i : load_of(p, upper)) {
+/// A body with all that stands on it.
+struct Load {
+  Vec3 center = Vec3::Zero();  ///< of mass
+  std::vector<int> bodies;
+};
+Load load_of(const Proposer& p, int body) {
+  Load load;
+  load.bodies = {body};
+  for (std::size_t i = 0; i < load.bodies.size(); ++i)
+    for (const int next : p.above[load.bodies[i]])
+      if (std::find(load.bodies.begin(), load.bodies.end(), next) == load.bodies.end()) load.bodies.push_back(next);
+  double mass = 0.0;
+  for (const int i : load.bodies) {
     const double m = p.problem.cuboid(i).density * p.box(i).volume();
-    sum += m * p.box(i).center;
-    end = mass == 0.0 ? far_end(p.box(i), direction) : std::max(end, far_end(p.box(i), direction));
+    load.center += m * p.box(i).center;
     mass += m;
   }
-  return {-far_end(box, -direction) + overlap, direction.dot(box.center), direction.dot(sum) / mass, far_end(box, direction), end};
+  load.center /= mass;
+  return load;
 }
 
-/// The same for the upper body, which grows over its carrier: to its near end, middle and far end.
-std::vector<double> lengths_over(const OrientedBox& upper, int face, const OrientedBox& carrier, double overlap) {
-  const Vec3 direction = face_normal(upper, face);
-  return {-far_end(carrier, -direction) + overlap, direction.dot(carrier.center), far_end(carrier, direction)};
+/// How far beyond a centre of mass an edge must lie for the body to bear the push.
+double lever(const Proposer& p, const Vec3& center, double floor) {
+  return p.problem.push * std::max(0.0, center.z() - floor);
 }
 
-/// `mover` grows sideways so that `upper` comes to rest on `lower` (one of them is the mover); the gap that is left
-/// between them closes downward, or upward.
+/// Places along its normal to which a face of a carrier moves to bear another body just so, to reach under its centre of
+/// mass, under that of all its load, and under the far ends of both.
+std::vector<double> ends_under(const Proposer& p, const OrientedBox& carrier, int face, int upper, double overlap) {
+  const Vec3 direction = face_normal(carrier, face);
+  const OrientedBox& box = p.box(upper);
+  const Load load = load_of(p, upper);
+  const double floor = top(carrier);
+  double end = far_end(box, direction);
+  for (const int i : load.bodies) end = std::max(end, far_end(p.box(i), direction));
+  return {-far_end(box, -direction) + overlap, direction.dot(box.center) + lever(p, box.center, floor),
+          direction.dot(load.center) + lever(p, load.center, floor), far_end(box, direction), end};
+}
+
+/// The same for the upper body: over the near end, the middle and the far end of its carrier, and to where its own foot
+/// bears its load (its weight grows along: half of the growth goes with it).
+std::vector<double> ends_over(const Proposer& p, int upper, int face, int lower, double overlap) {
+  const OrientedBox& box = p.box(upper);
+  const Vec3 direction = face_normal(box, face);
+  const Load load = load_of(p, upper);
+  const double now = far_end(box, direction);
+  const double foot = direction.dot(load.center) + lever(p, load.center, bottom(box)) - now;
+  std::vector<double> ends = {now + foot, now + 2.0 * foot};
+  if (p.problem.is_support(lower)) return ends;
+  const OrientedBox& carrier = p.box(lower);
+  ends.insert(ends.end(), {-far_end(carrier, -direction) + overlap, direction.dot(carrier.center), far_end(carrier, direction)});
+  return ends;
+}
+
+/// `mover` grows sideways so that `upper` comes to rest on `lower` (one of them is the mover), or rests more surely; the
+/// gap that is left between them closes downward, or upward.
 void propose_sideways(Proposer& p, int lower, int upper, int mover) {
   const double overlap = p.tolerance(lower, upper);
-  const auto down = level_face(p.box(upper), -1.0), up = level_face(p.box(lower), 1.0);
-  if (!down || !up) return;
+  const bool support = p.problem.is_support(lower);
+  const auto down = level_face(p.box(upper), -1.0), up = support ? std::nullopt : level_face(p.box(lower), 1.0);
+  if (!down || (!support && !up)) return;
   for (int face = 0; face < 6; ++face) {
     if (std::abs(face_normal(p.box(mover), face).z()) > 1.0 - kFacesUp || p.room(mover, face) <= 0.0) continue;
-    std::vector<double> ends = mover == lower ? lengths_under(p, p.box(lower), face, upper, overlap)
-                                              : lengths_over(p.box(upper), face, p.box(lower), overlap);
+    std::vector<double> ends = mover == lower ? ends_under(p, p.box(lower), face, upper, overlap) : ends_over(p, upper, face, lower, overlap);
     std::sort(ends.begin(), ends.end());
     double last = 0.0;
     for (const double end : ends) {
@@ -110,11 +133,35 @@ void propose_sideways(Proposer& p, int lower, int upper, int mover) {
       const auto gap = mover == upper ? p.reach_of(grown, *down, lower) : reach(p.box(upper), *down, solid_of(grown));
       if (!gap) continue;
       const FaceMove sideways = {mover, face, length};
-      if (*gap <= overlap) p.add(lower, upper, ContactKind::touching, {sideways});
-      else {
-        if (*gap <= p.room(upper, *down)) p.add(lower, upper, ContactKind::touching, {sideways, {upper, *down, *gap}});
-        if (*gap <= p.room(lower, *up)) p.add(lower, upper, ContactKind::touching, {sideways, {lower, *up, *gap}});
+      if (*gap <= overlap) {
+        p.add(lower, upper, ContactKind::touching, {sideways});
+        continue;
       }
+      if (*gap <= p.room(upper, *down)) p.add(lower, upper, ContactKind::touching, {sideways, {upper, *down, *gap}});
+      if (up && *gap <= p.room(lower, *up)) p.add(lower, upper, ContactKind::touching, {sideways, {lower, *up, *gap}});
+    }
+  }
+}
+
+/// `mover` grows along one face until it lies beside `other`, which another of its faces then touches.
+void propose_beside(Proposer& p, int mover, int other) {
+  const double overlap = p.tolerance(mover, other);
+  for (int face = 0; face < 6; ++face) {
+    if (p.room(mover, face) <= overlap) continue;
+    const Vec3 direction = face_normal(p.box(mover), face);
+    const OrientedBox& box = p.box(other);
+    const double start = far_end(p.box(mover), direction);
+    double last = 0.0;
+    for (const double end : {-far_end(box, -direction) + 2.0 * overlap, far_end(box, direction)}) {
+      const double length = end - start;
+      if (length < last + overlap || length > p.room(mover, face)) continue;
+      last = length;
+      Extension extension{};
+      extension[face] = length;
+      const auto meet = interface_of(solid_of(extended(p.box(mover), extension)), p.solids[other - p.problem.supports_count()], overlap);
+      if (!meet || meet->gap < -overlap || std::abs(meet->normal.dot(direction)) > kFacesUp) continue;
+      p.add(mover, other, ContactKind::touching, {{mover, face, length}});
+      p.add(mover, other, ContactKind::fixed, {{mover, face, length}});
     }
   }
 }
@@ -147,7 +194,11 @@ void propose_pair(Proposer& p, int a, int b, bool touches) {
                                            [](const FaceMove& m, const FaceMove& n) { return m.length < n.length; });
     if (shortest != moves.end()) p.add(a, b, ContactKind::fixed, {*shortest});
   }
-  if (support) return;
+  if (support) return propose_sideways(p, a, b, b);
+  if (!touches) {
+    propose_beside(p, a, b);
+    propose_beside(p, b, a);
+  }
   for (const auto& [lower, upper] : {std::pair{a, b}, std::pair{b, a}}) {
     if (bottom(p.box(upper)) < top(p.box(lower)) - p.tolerance(a, b)) continue;
     propose_sideways(p, lower, upper, lower);

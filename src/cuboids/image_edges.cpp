@@ -13,14 +13,17 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kRounds = 4;                // closest points are renewed in each
-constexpr double kReach = 10.0;           // pixels to an edge, in the first round; then half of it
+constexpr double kReach[kRounds] = {10.0, 6.0, 4.0, 4.0};  // pixels to an edge
 constexpr double kPixelError = 1.5;       // pixels, of an edge
 constexpr double kLargestShift = 8.0;     // pixels between colour and depth
 constexpr double kShiftCost = 0.04;       // pixels of mean distance a pixel of shift has to gain
+constexpr double kMostRegistered = 2.0;   // pixels of mean distance
 constexpr double kFewestSamples = 12;
-constexpr double kInside = 2.0, kOutside = 8.0;  // σ of a side that was seen to end, in mm in and out: measured edges
+constexpr std::size_t kFewestCreaseSamples = 30;
+constexpr double kInside = 1.5, kOutside = 8.0;  // σ of a side that was seen to end, in mm in and out: measured edges
                                                  // fall short, but points that were measured are there
 constexpr double kSeenSide = 1.5;                // mm, σ of a side that was seen as a face
+constexpr double kStanding = 1e-5;               // m, σ of a bottom that stands on the ground
 constexpr double kTurn = 0.02;                   // rad, σ of the turn
 constexpr double kSlack = 0.0005;                // m that the points may be farther from the box on average
 
@@ -108,6 +111,10 @@ std::array<bool, 6> seen_sides(const OrientedBox& box, const std::vector<Vec3>& 
   return seen;
 }
 
+bool stands_on(const Support& ground, const OrientedBox& box) {
+  return std::abs(ground.plane.signed_distance(box.center - box.half_size.z() * box.axes.col(2))) < 1e-3;
+}
+
 struct Problem {
   const RgbdFrame& frame;
   const ImageEdges& edges;
@@ -130,7 +137,8 @@ Vec2 registration_shift(const Problem& problem, const std::vector<Vec2>& pixels)
       const double cost = sum / static_cast<double>(pixels.size()) + kShiftCost * std::hypot(du, dv);
       if (cost < best_cost) best_cost = cost, best = {du, dv};
     }
-  return best;
+  // Faint creases are in no picture's edges; then there is nothing to register.
+  return best_cost < kMostRegistered ? best : Vec2(Vec2::Zero());
 }
 
 Change align(const Problem& problem, const OrientedBox& box, const std::vector<EdgeSample>& samples, const DepthResidual& depth) {
@@ -139,16 +147,25 @@ Change align(const Problem& problem, const OrientedBox& box, const std::vector<E
     const OrientedBox now = changed(box, change);
     ceres::Problem sum;
     int found = 0;
-    for (const EdgeSample& sample : samples) {
-      EdgeSample ahead = sample;
-      ahead.share += sample.share < 0.5 ? 0.1 : -0.1;
-      const Vec2 p = problem.pixel(now, sample), along = (problem.pixel(now, ahead) - p).normalized();
-      const Vec2 across(-along.y(), along.x());
-      const auto target = problem.edges.nearest(p + problem.shift, across, round == 0 ? kReach : 0.5 * kReach);
-      if (!target) continue;
-      ++found;
-      auto* residual = new EdgeResidual{box, problem.frame.camera, problem.T_camera_world, sample, *target - problem.shift, across};
-      sum.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeResidual, 1, 7>(residual), new ceres::CauchyLoss(1.5), change.data());
+    for (std::size_t from = 0, to = 0; from < samples.size(); from = to) {
+      std::vector<Vec2> points, across;
+      for (to = from; to < samples.size() && samples[to].same_edge(samples[from]); ++to) {
+        EdgeSample ahead = samples[to];
+        ahead.share += ahead.share < 0.5 ? 0.1 : -0.1;
+        points.push_back(problem.pixel(now, samples[to]) + problem.shift);
+        const Vec2 along = (problem.pixel(now, ahead) + problem.shift - points.back()).normalized();
+        // Directions of one edge agree in sign.
+        const Vec2 normal(-along.y(), along.x());
+        across.push_back(across.empty() || normal.dot(across.front()) > 0.0 ? normal : Vec2(-normal));
+      }
+      const std::vector<double> offsets = agreed_offsets(problem.edges, points, across, kReach[round]);
+      for (std::size_t n = 0; n < offsets.size(); ++n) {
+        if (std::isnan(offsets[n])) continue;
+        ++found;
+        const Vec2 target = points[n] + offsets[n] * across[n] - problem.shift;
+        auto* residual = new EdgeResidual{box, problem.frame.camera, problem.T_camera_world, samples[from + n], target, across[n]};
+        sum.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeResidual, 1, 7>(residual), new ceres::CauchyLoss(1.5), change.data());
+      }
     }
     if (found < kFewestSamples) return {};
     sum.AddResidualBlock(new ceres::AutoDiffCostFunction<DepthResidual, 7, 7>(new DepthResidual(depth)), nullptr, change.data());
@@ -175,10 +192,11 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
   std::vector<Vec2> pixels;
   for (std::size_t k = 0; k < cuboids.size(); ++k) {
     samples[k] = visible_edge_samples(cuboids[k].box, frame, seen.T_world_camera, view);
-    for (const EdgeSample& sample : samples[k]) pixels.push_back(problem.pixel(cuboids[k].box, sample));
+    // Only where two seen sides meet: depth falls short at silhouettes, on one side more than on the other.
+    for (const EdgeSample& sample : samples[k])
+      if (sample.crease) pixels.push_back(problem.pixel(cuboids[k].box, sample));
   }
-  if (pixels.empty()) return;
-  problem.shift = registration_shift(problem, pixels);
+  if (pixels.size() >= kFewestCreaseSamples) problem.shift = registration_shift(problem, pixels);
   context.check();
 
   std::vector<std::vector<Vec3>> points(cuboids.size());
@@ -201,6 +219,9 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
         depth.inside[side] = (faces[side] ? kSeenSide : kInside) * scale;
         depth.outside[side] = (faces[side] ? kSeenSide : kOutside) * scale;
       }
+      // Below is what it stands on, and its shadow.
+      depth.outside[4] = kInside * scale;
+      if (stands_on(seen.supports.front(), cuboid.box)) depth.inside[4] = depth.outside[4] = kStanding;
       const OrientedBox aligned = changed(cuboid.box, align(problem, cuboid.box, samples[k], depth));
       if (aligned.half_size.minCoeff() <= 0.0) continue;
       if (misfit(aligned, points[k]) <= misfit(cuboid.box, points[k]) + kSlack) cuboid.box = cuboid.initial = aligned;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kGoodResidual = 1e-4;
 constexpr int kSteps = 12;
+constexpr double kMostShrink = 0.3;  // of a size, by one face
 constexpr double kProbe = 1e-4;  // m, of the derivative
 
 /// An arrangement with its balance.
@@ -49,7 +50,8 @@ double energy(const Structure& structure, const std::vector<Vec3>& forces) {
 }
 
 Arrangement with_face(const Problem& problem, Arrangement a, int cuboid, int face, double move) {
-  a.extension[cuboid][face] += move;
+  const double size = 2.0 * problem.cuboids[cuboid].initial.half_size[face / 2];
+  a.extension[cuboid][face] = std::max(a.extension[cuboid][face] + move, -kMostShrink * size);
   a.boxes[cuboid] = extended(problem.cuboids[cuboid].initial, a.extension[cuboid]);
   a.solids[cuboid] = solid_of(a.boxes[cuboid]);
   return a;

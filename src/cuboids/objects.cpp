@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -15,7 +16,9 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kFewestFacePoints = 30;
-constexpr std::size_t kFewestPoints = 120;    // of an object
+constexpr std::size_t kFewestPoints = 80;     // of an object
+constexpr std::size_t kFewPoints = 500;         // so few may be a strip along an edge
+constexpr double kStrip = 8.0;                 // widths, in spacing
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
 constexpr double kCurved = 30.0;              // degrees that neighbouring pieces of a hollow surface may differ by
 constexpr std::size_t kFewestBorderLinks = 4;
@@ -53,11 +56,13 @@ std::vector<int> spread(const Faces& faces, const PointGraph& graph, std::span<c
   return owner;
 }
 
-void judge(Border& border, const Face& a, const Face& b, double sigma) {
+void judge(Border& border, const Face& a, const Face& b, double sigma, double spacing) {
   const Vec3 place = border.place / static_cast<double>(border.links);
   const double angle = degrees(std::acos(std::clamp(a.plane.normal.dot(b.plane.normal), -1.0, 1.0)));
   const double rise = a.plane.normal.dot((b.center - place).normalized()) + b.plane.normal.dot((a.center - place).normalized());
-  const bool meets = std::abs(a.plane.signed_distance(place)) < 5.0 * sigma && std::abs(b.plane.signed_distance(place)) < 5.0 * sigma;
+  // Edges are measured round.
+  const double off = std::max(std::abs(a.plane.signed_distance(place)), std::abs(b.plane.signed_distance(place)));
+  const bool meets = off < 5.0 * sigma + 1.5 * spacing;
   border.concave = rise > 0.0 && angle > kCurved;
   border.joins = !border.concave && meets && border.links >= kFewestBorderLinks;
 }
@@ -75,7 +80,7 @@ std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, c
   std::vector<std::pair<std::size_t, std::pair<int, int>>> order;
   for (auto& [pair, border] : borders) {
     const Face &a = faces.faces[pair.first], &b = faces.faces[pair.second];
-    judge(border, a, b, seen.graph.sigma[a.points.front()]);
+    judge(border, a, b, seen.graph.sigma[a.points.front()], seen.graph.spacing[a.points.front()]);
     if (border.joins) order.emplace_back(border.links, pair);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -130,6 +135,14 @@ std::vector<std::vector<int>> components(const Observation& seen, const std::vec
 /// Too few points, or no farther from the supports than their own noise.
 bool is_debris(const Observation& seen, const std::vector<int>& part) {
   if (part.size() < kFewestPoints) return true;
+  if (part.size() < kFewPoints) {
+    Vec3 mean = Vec3::Zero();
+    Mat3 second = Mat3::Zero();
+    for (const int i : part) mean += seen.points[i] / static_cast<double>(part.size());
+    for (const int i : part) second += (seen.points[i] - mean) * (seen.points[i] - mean).transpose() / static_cast<double>(part.size());
+    const double width = std::sqrt(12.0 * std::max(Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvalues()[1], 0.0));
+    if (width < kStrip * seen.graph.spacing[part.front()]) return true;
+  }
   for (const Support& support : seen.supports) {
     std::vector<double> height;
     for (const int i : part) height.push_back(support.plane.signed_distance(seen.points[i]) / seen.graph.sigma[i]);

@@ -89,9 +89,10 @@ FoundSupports given_supports(const RgbdFrame& frame, const Scan& scan) {
 }
 
 /// z up, z = 0 on the ground, origin below the camera; the camera's forward on +y, or what is up in its picture.
-RigidTransform world_of(const Vec3& up, const Plane& ground) {
-  Vec3 forward = Vec3::UnitZ();
-  if (std::abs(forward.dot(up)) > kNearVertical) forward = -Vec3::UnitY();
+/// A cloud has no camera; its own y, or z where y is up, takes the place of forward.
+RigidTransform world_of(const Vec3& up, const Plane& ground, bool is_image) {
+  Vec3 forward = is_image ? Vec3::UnitZ() : Vec3::UnitY();
+  if (std::abs(forward.dot(up)) > kNearVertical) forward = is_image ? Vec3(-Vec3::UnitY()) : Vec3::UnitZ();
   RigidTransform T;
   const Vec3 y = (forward - forward.dot(up) * up).normalized();
   T.rotation.row(0) = y.cross(up);
@@ -150,7 +151,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
       throw InputError(frame.name, "depth", "no horizontal plane", "a surface to stand on");
     if (frame.up && found.up.dot(up) < kSameUp) found.up = up;
   }
-  seen.T_world_camera = world_of(found.up, found.supports.front().plane);
+  seen.T_world_camera = world_of(found.up, found.supports.front().plane, scan.is_image);
   seen.support_of_point = assign(found, scan);
   const RigidTransform& T = seen.T_world_camera;
   seen.supports = found.supports;

@@ -38,10 +38,18 @@ void set_normal(PointGraph& graph, const Vec3& point, int i, const Vec3& sum, co
 }
 
 /// Surroundings in the picture: 5 × 5 samples, as wide as the noise asks for (about 3° of error of the normal).
+/// One pixel of each 2 × 2 is worked out; the others of it take its normal if they lie on its surface.
 void normals_of_image(const Camera& camera, const Measured& m, PointGraph& graph, const Context& context) {
   const double focal = std::min(camera.fx, camera.fy);
-  const auto rows = [&](std::size_t begin, std::size_t end) {
+  const auto leader = [&](std::size_t i) -> int {
+    const int u = m.pixel_of_point[i] % camera.width, v = m.pixel_of_point[i] / camera.width;
+    const int j = m.point_of_pixel[static_cast<std::size_t>(v & ~1) * camera.width + (u & ~1)];
+    const bool near = j >= 0 && std::abs(m.points[j].z() - m.points[i].z()) < 2.0 * (graph.sigma[i] + graph.spacing[i]);
+    return near ? j : static_cast<int>(i);
+  };
+  const auto leaders = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (leader(i) != static_cast<int>(i)) continue;
       const Vec3& p = m.points[i];
       const double sigma = graph.sigma[i], spacing = p.z() / focal;
       const int half = std::clamp(static_cast<int>(7.0 * sigma / spacing), kMinWindow, kMaxWindow), step = half / 2;
@@ -65,7 +73,12 @@ void normals_of_image(const Camera& camera, const Measured& m, PointGraph& graph
       set_normal(graph, p, static_cast<int>(i), sum, scatter, count);
     }
   };
-  parallel_blocks(context, m.points.size(), 8192, rows);
+  const auto followers = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (const int j = leader(i); j != static_cast<int>(i)) graph.normals[i] = graph.normals[j], graph.flatness[i] = graph.flatness[j];
+  };
+  parallel_blocks(context, m.points.size(), 8192, leaders);
+  parallel_blocks(context, m.points.size(), 8192, followers);
 }
 
 /// Links to the next measured pixel to the right and below, if it lies on the same surface.

@@ -41,6 +41,7 @@ struct Problem {
   std::vector<Hypothesis> hypotheses;
   double friction = 0.7;
   double stable_residual = 0.05;
+  double push = 0.1;  ///< g: horizontal acceleration, from any side, that an arrangement must bear
 
   int supports_count() const { return static_cast<int>(supports.size()); }
   int bodies() const { return static_cast<int>(supports.size() + cuboids.size()); }

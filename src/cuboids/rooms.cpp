@@ -9,6 +9,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFreeShare = 0.05;  // of samples: speckle and edges of the depth image
+constexpr double kFitOpen = 1.5;     // tolerances
 constexpr int kMaxSamples = 14;      // along one side of a face
 
 /// Places along one side of a box, away from its edges, where flying pixels are.
@@ -42,11 +43,11 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     for (int face = 0; face < 6; ++face) {
       const double step = tolerance[i];
-      // The first step is within what the fit leaves open; a face that is seen stops at the second.
+      // A face that is seen stops at the first step: it may still move by what the fit leaves open.
       double at = step;
       while (at < farthest && free_share(view, cuboids[i].initial, face, at + 0.5 * step, tolerance[i]) <= kFreeShare)
         at += step;
-      rooms[i][face] = at > 1.5 * step ? at : 0.0;
+      rooms[i][face] = at > 1.5 * step ? at : kFitOpen * step;
     }
   return rooms;
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include "cuboids/collapse.h"
 
@@ -35,14 +37,31 @@ struct Search {
   std::chrono::steady_clock::time_point end;
   Arrangement initial, largest;
   std::vector<Touch> initial_touches;
-  std::vector<char> held;
+  std::vector<char> inside;  ///< a body: part of what is solved now
+  std::vector<char> held;    ///< a body: firm, as it is outside or as nothing can hold it
   std::vector<Certificate> known;
   std::vector<int> blame;  ///< a body: in how many dead ends it was on the move
   Choice best;
   bool found = false;
 };
 
-Cost cost_of(const Arrangement& a) { return {static_cast<int>(a.fixed.size()), a.extended_volume}; }
+/// Costs of what is inside: a lower bound of its share in the costs of the whole.
+double cost_of_fixing(const Search& s, int a, int b) {
+  const auto outside = [&](int body) { return !s.problem.is_support(body) && !s.inside[body]; };
+  return outside(a) || outside(b) ? 0.5 : 1.0;
+}
+Cost cost_of(const Search& s, const Arrangement& now) {
+  Cost cost;
+  for (const auto& [a, b] : now.fixed) cost.fixed += cost_of_fixing(s, a, b);
+  for (std::size_t i = 0; i < now.boxes.size(); ++i)
+    if (s.inside[s.problem.supports_count() + i]) cost.volume += now.boxes[i].volume() - s.problem.cuboids[i].initial.volume();
+  return cost;
+}
+double added_volume(const Search& s, const Arrangement& now, const Hypothesis& hypothesis) {
+  Hypothesis within = hypothesis;
+  std::erase_if(within.moves, [&](const FaceMove& move) { return !s.inside[move.body]; });
+  return added_volume(s.problem, now, within);
+}
 Cost operator+(const Cost& a, const Cost& b) { return {a.fixed + b.fixed, a.volume + b.volume}; }
 
 std::vector<int> with(std::vector<int> chosen, int h) {
@@ -66,6 +85,17 @@ Certificate certificate_of(const Search& s, Collapse collapse) {
   return c;
 }
 
+/// Gravity alone, then with a push from each side.
+std::vector<Vec3> load_cases(double push) {
+  constexpr int kSides = 8;
+  std::vector<Vec3> cases = {-Vec3::UnitZ()};
+  for (int i = 0; i < kSides && push > 0.0; ++i) {
+    const double angle = 2.0 * kPi * i / kSides;
+    cases.emplace_back(push * std::cos(angle), push * std::sin(angle), -1.0);
+  }
+  return cases;
+}
+
 /// What is known against an arrangement.
 struct Verdict {
   bool stands = false;
@@ -81,13 +111,19 @@ Verdict judge(Search& s, const Arrangement& now) {
       verdict.certificates.push_back(static_cast<int>(c));
   if (!verdict.certificates.empty()) return verdict;
   const Structure structure = structure_of(s.problem, now, touches, s.held);
-  const Balance b = balance(structure.bodies, structure.contacts);
-  verdict.residual = b.residual;
-  verdict.stands = b.residual < s.problem.stable_residual;
-  if (verdict.stands) return verdict;
-  for (Collapse& collapse : collapses_of(b, structure, s.problem, now, touches, s.held)) {
-    verdict.certificates.push_back(static_cast<int>(s.known.size()));
-    s.known.push_back(certificate_of(s, std::move(collapse)));
+  std::vector<Vec3> forces;
+  for (const Vec3& gravity : load_cases(s.problem.push)) {
+    Balance b = balance(structure.bodies, structure.contacts, gravity, forces);
+    if (forces.empty()) verdict.residual = b.residual;
+    verdict.stands = b.residual < s.problem.stable_residual;
+    if (!verdict.stands) {
+      for (Collapse& collapse : collapses_of(b, gravity, structure, s.problem, now, touches, s.held)) {
+        verdict.certificates.push_back(static_cast<int>(s.known.size()));
+        s.known.push_back(certificate_of(s, std::move(collapse)));
+      }
+      return verdict;
+    }
+    forces = std::move(b.forces);
   }
   return verdict;
 }
@@ -96,11 +132,13 @@ Verdict judge(Search& s, const Arrangement& now) {
 std::vector<Option> options_of(const Search& s, const std::vector<int>& cut, const Arrangement& now,
                                const std::vector<char>& closed) {
   std::vector<Option> out;
+  const Cost base = cost_of(s, now);
   for (const int h : cut) {
     if (closed[h]) continue;
     const Hypothesis& hypothesis = s.problem.hypotheses[h];
-    const Cost added = {hypothesis.kind == ContactKind::fixed ? 1 : 0, added_volume(s.problem, now, hypothesis)};
-    out.push_back({h, cost_of(now) + added});
+    const Cost added = {hypothesis.kind == ContactKind::fixed ? cost_of_fixing(s, hypothesis.a, hypothesis.b) : 0.0,
+                        added_volume(s, now, hypothesis)};
+    out.push_back({h, base + added});
   }
   std::stable_sort(out.begin(), out.end(), [](const Option& a, const Option& b) { return cheaper(a.cost, b.cost); });
   return out;
@@ -115,7 +153,8 @@ std::vector<int> cut_of(const Search& s, const Certificate& c, const Arrangement
 /// What an arrangement costs at least once all collapses are stopped: cuts that share no hypothesis and move no body in
 /// common add up.
 Cost lower_bound(const Search& s, const Arrangement& now, const std::vector<std::vector<Option>>& branches) {
-  Cost bound = cost_of(now);
+  const Cost base = cost_of(s, now);
+  Cost bound = base;
   std::vector<char> used(s.problem.hypotheses.size(), 0), moved(s.problem.bodies(), 0);
   std::vector<const std::vector<Option>*> order;
   for (const auto& branch : branches) order.push_back(&branch);
@@ -131,13 +170,13 @@ Cost lower_bound(const Search& s, const Arrangement& now, const std::vector<std:
       for (const FaceMove& m : s.problem.hypotheses[o.hypothesis].moves) moved[m.body] = 1;
     }
     const Cost& least = branch->front().cost;
-    bound = bound + Cost{least.fixed - cost_of(now).fixed, least.volume - cost_of(now).volume};
+    bound = bound + Cost{least.fixed - base.fixed, least.volume - base.volume};
   }
   return bound;
 }
 
 void keep(Search& s, const Arrangement& now, const std::vector<int>& chosen, double residual) {
-  const Cost cost = cost_of(now);
+  const Cost cost = cost_of(s, now);
   if (s.found && !cheaper(cost, s.best.cost) && (cheaper(s.best.cost, cost) || residual >= s.best.residual)) return;
   s.found = true;
   s.best.chosen = chosen;
@@ -205,6 +244,60 @@ int most_blamed(const Search& s) {
   return worst;
 }
 
+/// The best choice for some bodies, the others being firm as they are. Bodies that nothing can hold join `unheld`.
+std::vector<int> solve_part(Search& s, const std::vector<int>& part, std::vector<char>& unheld) {
+  s.inside.assign(s.problem.bodies(), 0);
+  for (const int body : part) s.inside[body] = 1;
+  std::vector<char> closed(s.problem.hypotheses.size(), 0);
+  for (std::size_t h = 0; h < closed.size(); ++h)
+    closed[h] = !s.inside[s.problem.hypotheses[h].a] && !s.inside[s.problem.hypotheses[h].b];
+  for (;;) {
+    for (int i = s.problem.supports_count(); i < s.problem.bodies(); ++i) s.held[i] = !s.inside[i] || unheld[i];
+    s.known.clear();
+    s.blame.assign(s.problem.bodies(), 0);
+    s.found = false;
+    s.best.cost = kNoCost;
+    s.best.chosen.clear();
+    visit(s, {}, closed);
+    const int body = s.found || !s.best.optimal ? -1 : most_blamed(s);
+    if (body < 0) return s.best.chosen;
+    unheld[body] = 1;
+  }
+}
+
+/// Parts of the scene: bodies numbered alike are solved together.
+struct Parts {
+  std::vector<int> of;
+
+  void join(int a, int b) {
+    const int from = std::max(of[a], of[b]), to = std::min(of[a], of[b]);
+    std::replace(of.begin(), of.end(), from, to);
+  }
+  std::vector<int> members(int part) const {
+    std::vector<int> out;
+    for (std::size_t i = 0; i < of.size(); ++i)
+      if (of[i] == part) out.push_back(static_cast<int>(i));
+    return out;
+  }
+};
+
+/// Joins parts whose solutions reach into each other; true if there were any.
+bool join_entangled(const Search& s, const std::vector<int>& chosen, Parts& parts) {
+  bool joined = false;
+  const auto join = [&](int a, int b) {
+    if (s.problem.is_support(a) || s.problem.is_support(b) || parts.of[a] == parts.of[b]) return;
+    parts.join(a, b);
+    joined = true;
+  };
+  for (const int h : chosen) {
+    join(s.problem.hypotheses[h].a, s.problem.hypotheses[h].b);
+    for (const FaceMove& move : s.problem.hypotheses[h].moves) join(move.body, s.problem.hypotheses[h].b);
+  }
+  if (joined) return true;
+  for (const Touch& touch : touching_pairs(s.problem, arrange(s.problem, chosen))) join(touch.a, touch.b);
+  return joined;
+}
+
 }  // namespace
 
 bool cheaper(const Cost& a, const Cost& b) {
@@ -214,21 +307,38 @@ bool cheaper(const Cost& a, const Cost& b) {
 Choice search_contacts(const Problem& problem, const Admissible& admissible, double time_limit, Context& context) {
   const auto limit = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(time_limit));
   Search s{problem, admissible, context, std::chrono::steady_clock::now() + limit, arrange(problem, {}), largest_arrangement(problem),
-           {}, std::vector<char>(problem.bodies(), 0), {}, {}, {}, false};
-  s.best.cost = kNoCost;
+           {}, {}, std::vector<char>(problem.bodies(), 0), {}, {}, {}, false};
   s.initial_touches = touching_pairs(problem, s.initial);
-  for (;;) {
-    s.known.clear();
-    s.blame.assign(problem.bodies(), 0);
-    visit(s, {}, std::vector<char>(problem.hypotheses.size(), 0));
-    if (s.found || !s.best.optimal) break;
-    const int body = most_blamed(s);
-    if (body < 0) break;
-    s.held[body] = 1;
-  }
-  if (!s.found) s.best.optimal = false;
-  s.best.held = s.held;
-  return s.best;
+  Parts parts;
+  for (int i = 0; i < problem.bodies(); ++i) parts.of.push_back(i);
+  for (const Touch& touch : s.initial_touches)
+    if (!problem.is_support(touch.a)) parts.join(touch.a, touch.b);
+
+  std::map<std::vector<int>, std::pair<std::vector<int>, std::vector<char>>> solved;  // a part: hypotheses, unheld bodies
+  Choice choice;
+  do {
+    choice.chosen.clear();
+    choice.held.assign(problem.bodies(), 0);
+    for (int i = problem.supports_count(); i < problem.bodies(); ++i) {
+      const std::vector<int> part = parts.members(i);
+      if (part.empty()) continue;
+      auto& [chosen, unheld] = solved[part];
+      if (unheld.empty()) {
+        unheld.assign(problem.bodies(), 0);
+        chosen = solve_part(s, part, unheld);
+      }
+      choice.chosen.insert(choice.chosen.end(), chosen.begin(), chosen.end());
+      for (std::size_t k = 0; k < unheld.size(); ++k) choice.held[k] |= unheld[k];
+    }
+    std::sort(choice.chosen.begin(), choice.chosen.end());
+  } while (join_entangled(s, choice.chosen, parts));
+  s.inside.assign(problem.bodies(), 1);
+  choice.cost = cost_of(s, arrange(problem, choice.chosen));
+  choice.residual = s.best.residual;
+  choice.nodes = s.best.nodes;
+  choice.pruned = s.best.pruned;
+  choice.optimal = s.best.optimal;
+  return choice;
 }
 
 }  // namespace unseen::cuboids

@@ -12,7 +12,7 @@ namespace unseen::cuboids {
 
 /// What an arrangement costs: compared in this order.
 struct Cost {
-  int fixed = 0;
+  double fixed = 0;   ///< contacts; one that leads out of the part of the scene that is looked at counts half
   double volume = 0;  ///< m³
 };
 /// Lexicographic; volumes within a mm³ are equal.
@@ -34,7 +34,8 @@ using Admissible = std::function<bool(const Arrangement&)>;
 /// Finds at most one hypothesis a pair such that the arrangement stands, without penetration, with the fewest fixed
 /// contacts and then the least extended volume (design page, step 6). Each unstable arrangement that is met gives a
 /// collapse motion, and of the hypotheses that could stop it one must be chosen: a hitting set is searched by branch and
-/// bound, so that few arrangements are ever balanced.
+/// bound, so that few arrangements are ever balanced. Parts of the scene that do not touch are solved apart, the rest of
+/// the scene taken as firm; parts that turn out to need each other are solved together.
 Choice search_contacts(const Problem& problem, const Admissible& admissible, double time_limit, Context& context);
 
 }  // namespace unseen::cuboids

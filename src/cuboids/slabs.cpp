@@ -12,6 +12,7 @@ namespace {
 constexpr int kMostCells = 14;          // an axis; (14 · 15 / 2)³ candidates
 constexpr double kSmallestShare = 0.1;  // of the points of the whole
 constexpr std::size_t kFewestPoints = 100;
+constexpr double kLeastGain = 0.05;
 constexpr int kMostSlabs = 12;
 
 using Index3 = std::array<int, 3>;
@@ -39,10 +40,10 @@ std::vector<int> integral(const Cells& cells, const std::vector<int>& values) {
 
 struct Slab {
   Index3 from{}, to{};
-  int points = 0, filled = 0;
+  int points = 0;
 };
 
-/// The slab with most points; of equals the fullest.
+/// The slab that explains most points while it is full: points count by how far it is above the least fill.
 Slab best_slab(const Cells& cells, double fill) {
   const std::vector<int> filled = integral(cells, cells.filled), points = integral(cells, cells.points);
   const int w = cells.count[0] + 1, h = cells.count[1] + 1;
@@ -51,7 +52,7 @@ Slab best_slab(const Cells& cells, double fill) {
     return v(x1, y1, z1) - v(x0, y1, z1) - v(x1, y0, z1) - v(x1, y1, z0) + v(x0, y0, z1) + v(x0, y1, z0) + v(x1, y0, z0) - v(x0, y0, z0);
   };
   Slab best;
-  double best_share = 0;
+  double best_score = 0;
   for (int z0 = 0; z0 < cells.count[2]; ++z0)
     for (int z1 = z0 + 1; z1 <= cells.count[2]; ++z1)
       for (int y0 = 0; y0 < cells.count[1]; ++y0)
@@ -59,12 +60,13 @@ Slab best_slab(const Cells& cells, double fill) {
           for (int x0 = 0; x0 < cells.count[0]; ++x0)
             for (int x1 = x0 + 1; x1 <= cells.count[0]; ++x1) {
               const int p = total(points, x0, y0, z0, x1, y1, z1);
-              if (p < best.points || p == 0) continue;
+              if (p * (1.0 - fill + kLeastGain) <= best_score) continue;
               const int f = total(filled, x0, y0, z0, x1, y1, z1);
               const double share = static_cast<double>(f) / ((x1 - x0) * (y1 - y0) * (z1 - z0));
-              if (share < fill || (p == best.points && share <= best_share)) continue;
-              best = {{x0, y0, z0}, {x1, y1, z1}, p, f};
-              best_share = share;
+              const double score = p * (share - fill + kLeastGain);
+              if (share < fill || score <= best_score) continue;
+              best = {{x0, y0, z0}, {x1, y1, z1}, p};
+              best_score = score;
             }
   return best;
 }

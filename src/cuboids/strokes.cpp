@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kHalf = 2;             // the cut works on pictures of half the size
 constexpr int kRounds = 3;
-constexpr double kDepthStep = 0.15;  // m of distance from the ground that count as much as black and white
+constexpr double kDepthStep = 0.6;   // m of depth that count as much as black and white
 
 /// Two channels of colour (light and one opponent pair) and one of depth, so that the cut sees both.
 cv::Mat features(const RgbdFrame& frame, const Observation& seen) {

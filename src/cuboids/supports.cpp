@@ -20,7 +20,8 @@ constexpr double kWallShare = 0.25;           // of the square of the scene's ra
 constexpr double kMostBehindWall = 0.03;      // of the points
 constexpr double kDeskArea = 0.4;  // m²; what is flat and as large may carry things itself
 constexpr double kBelow = 0.1, kBelowShare = 0.05;  // m below the ground, share of the points
-constexpr std::size_t kMostFitPoints = 40000;
+constexpr int kColumns = 512;
+constexpr std::size_t kMostFitPoints = 15000;
 
 struct Level {
   Plane plane;
@@ -64,10 +65,21 @@ void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v) {
   std::vector<Vec2> flat;
   for (const int f : level.faces)
     for (const int i : scan.faces.faces[f].points) flat.emplace_back(u.dot(scan.points[i]), v.dot(scan.points[i]));
-  level.outline = convex_outline(std::move(flat));
+  // Only the lowest and highest point of each thin column can be corners.
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec2& p : flat) low = std::min(low, p.x()), high = std::max(high, p.x());
+  std::vector<Vec2> lowest(kColumns, Vec2(0, 1e30)), highest(kColumns, Vec2(0, -1e30)), corners;
+  for (const Vec2& p : flat) {
+    const int c = std::min(static_cast<int>((p.x() - low) / std::max(high - low, 1e-9) * kColumns), kColumns - 1);
+    if (p.y() < lowest[c].y()) lowest[c] = p;
+    if (p.y() > highest[c].y()) highest[c] = p;
+  }
+  for (int c = 0; c < kColumns; ++c)
+    if (lowest[c].y() < 1e30) corners.insert(corners.end(), {lowest[c], highest[c]});
+  level.outline = convex_outline(std::move(corners));
 }
 
-/// Points that stand on each level: above it, within its outline, and on no level itself. They are counted as the
+/// Points that stand on each level: it is the highest below them, and they are on no level themselves. They are counted as the
 /// camera sees them: what it was pointed at matters, not what looms behind.
 void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, const Vec3& v) {
   std::vector<char> flat(scan.faces.faces.size(), 0);
@@ -78,11 +90,16 @@ void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, c
     const int f = scan.faces.face_of_point[i];
     if (f >= 0 && flat[f]) continue;
     const Vec2 place(u.dot(scan.points[i]), v.dot(scan.points[i]));
+    Level* carrier = nullptr;  // the highest that is below
+    double least = kCarryHeight;
     for (Level& level : levels) {
       const double height = level.plane.signed_distance(scan.points[i]);
-      if (height > 6.0 * scan.graph.sigma[i] && height < kCarryHeight && inside_outline(level.outline, place, 0.0))
-        level.carried += 1.0;
+      if (height > 6.0 * scan.graph.sigma[i] && height < least && inside_outline(level.outline, place, 0.0)) {
+        least = height;
+        carrier = &level;
+      }
     }
+    if (carrier) carrier->carried += 1.0;
   }
 }
 
@@ -184,7 +201,7 @@ Plane fit_support(const Scan& scan, std::span<const int> points) {
   Vec3 solution = Vec3::Zero();
   Plane plane;
   double scale = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < 3; ++round) {
     Mat3 normal_matrix = Mat3::Zero();
     Vec3 right = Vec3::Zero(), mean = Vec3::Zero();
     Mat3 second = Mat3::Zero();

@@ -31,7 +31,8 @@ bool is_leg_of(const OrientedBox& leg, const OrientedBox& plate, double toleranc
     if (k != up) width = std::max(width, leg.half_size[k]);
   if (leg.half_size[up] < kSlender * width) return false;
   const double gap = plate.center.z() - plate.half_size[plate_up] - (leg.center.z() + leg.half_size[up]);
-  if (std::abs(gap) > 3.0 * tolerance) return false;
+  // Its upper part may be hidden by the plate.
+  if (gap < -3.0 * tolerance || gap > std::max(3.0 * tolerance, leg.half_size[up])) return false;
   const Vec3 offset = plate.axes.transpose() * (leg.center - plate.center);
   for (int k = 0; k < 3; ++k)
     if (k != plate_up && (width > kLegShare * plate.half_size[k] || std::abs(offset[k]) > plate.half_size[k])) return false;

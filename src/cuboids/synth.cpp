@@ -12,7 +12,7 @@ namespace unseen::cuboids {
 namespace {
 
 /// Five azimuths: around the scene, or within the room before the wall. None looks along an axis of the boxes.
-constexpr double kAround[] = {25, 97, 169, 241, 313}, kInFront[] = {-46, -24, 7, 26, 44};  // deg
+constexpr double kAround[] = {28, 62, 150, 212, 322}, kInFront[] = {-46, -24, 7, 26, 44};  // deg
 
 constexpr int kMostBoxes[] = {8, 8, 56};
 const std::vector<std::string> kCounted = {"tower", "twisted", "running-bond"};

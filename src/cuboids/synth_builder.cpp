@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuboids/box_overlap.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -12,18 +14,6 @@ constexpr double kFlush = 1e-7;      // m, faces this near are one plane
 constexpr double kLeastArea = 1e-4;  // m²
 constexpr double kLeastEdge = 5e-3;  // m
 constexpr double kInside = 1e-3;     // m, an edge counts only so far inside the other's face
-
-struct Face {
-  Vec3 center, normal, u, v;  ///< u and v are unit
-  double half_u, half_v;
-};
-
-Face face_of(const OrientedBox& box, int k, double sign) {
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  const Vec3 normal = sign * box.axes.col(k);
-  return {box.center + box.half_size[k] * normal, normal, box.axes.col(i), box.axes.col(j), box.half_size[i],
-          box.half_size[j]};
-}
 
 /// The part of a convex polygon where direction·p ≤ limit.
 std::vector<Vec2> clip(const std::vector<Vec2>& polygon, const Vec2& direction, double limit) {
@@ -38,7 +28,7 @@ std::vector<Vec2> clip(const std::vector<Vec2>& polygon, const Vec2& direction, 
 }
 
 /// m², that two parallel rectangles share.
-double shared_area(const Face& a, const Face& b) {
+double shared_area(const BoxFace& a, const BoxFace& b) {
   std::vector<Vec2> polygon;
   for (const auto& [su, sv] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
     const Vec3 p = b.center + su * b.half_u * b.u + sv * b.half_v * b.v - a.center;
@@ -57,7 +47,7 @@ double shared_area(const Face& a, const Face& b) {
 }
 
 /// m, of the edge from p to q that lies well within a face.
-double length_on(const Face& face, const Vec3& p, const Vec3& q) {
+double length_on(const BoxFace& face, const Vec3& p, const Vec3& q) {
   if (std::abs(face.normal.dot(p - face.center)) > kFlush || std::abs(face.normal.dot(q - face.center)) > kFlush)
     return 0.0;
   double low = 0.0, high = 1.0;
@@ -107,10 +97,10 @@ std::array<Vec3, 8> corners_of(const OrientedBox& box) {
 bool boxes_touch(const OrientedBox& a, const OrientedBox& b) {
   for (int k = 0; k < 3; ++k)
     for (const double sign : {-1.0, 1.0}) {
-      const Face face = face_of(a, k, sign);
+      const BoxFace face = face_of(a, k, sign);
       for (int m = 0; m < 3; ++m)
         for (const double other : {-1.0, 1.0}) {
-          const Face against = face_of(b, m, other);
+          const BoxFace against = face_of(b, m, other);
           const bool opposed = (face.normal + against.normal).norm() < kFlush;
           const double gap = face.normal.dot(against.center - face.center);
           if (opposed && std::abs(gap) < kFlush && shared_area(face, against) > kLeastArea) return true;

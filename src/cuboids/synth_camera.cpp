@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cuboids/synth_builder.h"
 #include "cuboids/synth_sensor.h"
@@ -89,14 +88,14 @@ SynthModel moved(const SynthModel& model, const RigidTransform& T) {
   return out;
 }
 
-/// Share of each face that no ray from the camera reaches.
-std::array<double, 6> hidden_shares(std::size_t index, const SynthModel& model, const std::vector<bool>& shown,
-                                    const RigidTransform& T_world_camera) {
-  const OrientedBox& box = model.boxes[index];
+/// Notes the share of each face that no ray from the camera reaches, and how much of each dimension the rest spans.
+void look_at_faces(TrueCuboid& cuboid, const SynthModel& model, const std::vector<bool>& shown,
+                   const RigidTransform& T_world_camera) {
+  const OrientedBox& box = *cuboid.box;
   const RayScene scene(model, shown);
   const RigidTransform T_camera_world = T_world_camera.inverse();
   const Vec3& eye = T_world_camera.translation;
-  std::array<double, 6> hidden;
+  Eigen::AlignedBox3d span;
   for (int f = 0; f < 6; ++f) {
     const int k = f / 2, i = (k + 1) % 3, j = (k + 2) % 3;
     const double sign = f % 2 == 0 ? -1.0 : 1.0;
@@ -113,11 +112,18 @@ std::array<double, 6> hidden_shares(std::size_t index, const SynthModel& model, 
         const Vec2 pixel = kCamera.project(in_camera);
         const bool inside = in_camera.z() > 0 && pixel.x() > -0.5 && pixel.y() > -0.5 &&
                             pixel.x() < kCamera.width - 0.5 && pixel.y() < kCamera.height - 0.5;
-        if (inside && scene.first_hit(eye, ray).distance > 1.0 - 1e-9) ++seen;
+        if (inside && scene.first_hit(eye, ray).distance > 1.0 - 1e-9) {
+          ++seen;
+          // A sample stands for its cell.
+          Vec3 cell = box.half_size / kFaceSamples;
+          cell[k] = 0.0;
+          span.extend(at - cell);
+          span.extend(at + cell);
+        }
       }
-    hidden[f] = 1.0 - seen / static_cast<double>(kFaceSamples * kFaceSamples);
+    cuboid.hidden[f] = 1.0 - seen / static_cast<double>(kFaceSamples * kFaceSamples);
   }
-  return hidden;
+  cuboid.seen = span.isEmpty() ? Vec3(Vec3::Zero()) : Vec3(span.sizes().cwiseQuotient(cuboid.size));
 }
 
 Truth truth_of(const SynthModel& model, const std::vector<bool>& shown, const RigidTransform& T_world_camera,
@@ -137,7 +143,7 @@ Truth truth_of(const SynthModel& model, const std::vector<bool>& shown, const Ri
     cuboid.id = model.id_of_box(i);
     cuboid.box = model.boxes[i];
     cuboid.size = 2.0 * model.boxes[i].half_size;
-    cuboid.hidden = hidden_shares(i, model, shown, T_world_camera);
+    look_at_faces(cuboid, model, shown, T_world_camera);
     truth.cuboids.push_back(cuboid);
   }
   for (const Contact& contact : model.contacts)

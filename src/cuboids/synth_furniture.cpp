@@ -13,7 +13,7 @@ void add_chair(SynthBuilder& builder, const Vec2& place, double heading) {
   const auto put = [&](const Vec3& foot, const Vec3& size) {
     return builder.stand(turn * foot + Vec3(place.x(), place.y(), 0), size, heading + kPi / 2);
   };
-  for (const double side : {-1.0, 1.0}) put({side * 0.17, 0, 0}, {0.06, 0.36, 0.40});
+  for (const double side : {-1.0, 1.0}) put({side * 0.17, 0, 0}, {0.06, 0.32, 0.40});
   const int seat = put({0, 0, 0.40}, {0.44, 0.42, 0.05});
   const int back = put({0, 0.235, 0.41}, {0.40, 0.05, 0.45});
   builder.fix(seat, back);
@@ -67,7 +67,7 @@ SynthFrame build_desk(SynthBuilder& builder) {
 /// A seat on four legs; the back is fixed to the rear edge of the seat.
 SynthFrame build_four_legged_chair(SynthBuilder& builder) {
   for (const double x : {-0.17, 0.17})
-    for (const double y : {-0.16, 0.16}) builder.stand({x, y, 0}, {0.065, 0.065, 0.41});
+    for (const double y : {-0.14, 0.14}) builder.stand({x, y, 0}, {0.065, 0.065, 0.41});
   const int seat = builder.stand({0, 0, 0.41}, {0.46, 0.45, 0.055});
   const int back = builder.stand({0, 0.25, 0.42}, {0.42, 0.05, 0.48});
   builder.fix(seat, back);

@@ -79,9 +79,9 @@ SynthFrame build_leaning(SynthBuilder& builder) {
     const double slope = radians(slope_deg);
     builder.lean(-(half + block.z() / std::tan(slope)) * level + aside * across, heading, slope, plank);
   };
-  lean(kPi, 52, 0.03, {0.44, 0.13, 0.03});
-  lean(0.0, 47, -0.02, {0.46, 0.16, 0.035});
-  lean(kPi / 2, 58, 0.02, {0.40, 0.12, 0.03});
+  lean(kPi, 52, 0.03, {0.40, 0.13, 0.03});
+  lean(0.0, 47, 0.04, {0.42, 0.16, 0.035});
+  lean(kPi / 2, 58, 0.02, {0.37, 0.12, 0.03});
   builder.stand({0, 0.03, block.z()}, {0.15, 0.12, 0.09});
   return kTableTop;
 }

@@ -68,8 +68,7 @@ void read_images(const RgbdFiles& files, RgbdFrame& frame) {
 void read_cloud(const RgbdFiles& files, RgbdFrame& frame) {
   const JsonField json(*files.json, files.frame.string());
   for (const char* key : {"camera", "depth_scale", "color", "masks", "strokes"})
-    if (json.has(key))
-      throw InputError(files.frame.string(), key, "a field of depth images", "none beside \"cloud\"");
+    if (json.has(key)) throw InputError(files.frame.string(), key, "a field of depth images", "none beside \"cloud\"");
   frame.cloud = read_all(*open_points(files.cloud));
   if (json.has("viewpoint")) frame.cloud.viewpoint = json["viewpoint"].vector();
   if (!frame.cloud.viewpoint)

@@ -108,10 +108,12 @@ StoredDepth read_stored_depth(const std::filesystem::path& path) {
   const std::string_view bytes = file->view();
   const auto starts = [&](std::string_view magic) { return bytes.substr(0, magic.size()) == magic; };
   if (starts("\x89PNG")) return depth_of(decode_image(bytes, name), name);
-  if (starts(std::string_view("II*\0", 4)) || starts(std::string_view("MM\0*", 4))) return depth_of(decode_tiff(bytes, name), name);
+  if (starts(std::string_view("II*\0", 4)) || starts(std::string_view("MM\0*", 4)))
+    return depth_of(decode_tiff(bytes, name), name);
   if (starts("\x76\x2f\x31\x01")) return read_exr_depth(bytes, name);
   if (lower(path.extension().string()) == ".pcd") return read_organised(path, bytes);
-  throw InputError(name, "depth", bytes.empty() ? "an empty file" : "an unknown format", "a PNG, TIFF or EXR image, or a PCD");
+  throw InputError(name, "depth", bytes.empty() ? "an empty file" : "an unknown format",
+                   "a PNG, TIFF or EXR image, or a PCD");
 }
 
 }  // namespace unseen::io

@@ -54,10 +54,13 @@ StoredDepth read_exr_depth(std::string_view bytes, const std::string& name) {
     MemoryStream stream(bytes);
     Imf::InputFile file(stream, 0);  // in this thread
     const Imath::Box2i window = file.header().dataWindow();
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1, height = std::int64_t{window.max.y} - window.min.y + 1;
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1,
+                       height = std::int64_t{window.max.y} - window.min.y + 1;
     constexpr std::int64_t kMost = std::int64_t{1} << 28, kMostPerByte = 1000;
-    if (width < 1 || height < 1 || width > kMost / height || width * height / kMostPerByte > static_cast<std::int64_t>(bytes.size()))
-      throw InputError(name, "image", fmt::format("{} x {} pixels in {} bytes", width, height, bytes.size()), "a size that fits the file");
+    if (width < 1 || height < 1 || width > kMost / height ||
+        width * height / kMostPerByte > static_cast<std::int64_t>(bytes.size()))
+      throw InputError(name, "image", fmt::format("{} x {} pixels in {} bytes", width, height, bytes.size()),
+                       "a size that fits the file");
     const std::string channel = depth_channel(file.header().channels(), name);
     const Imf::Channel& about = file.header().channels()[channel.c_str()];
     if (about.xSampling != 1 || about.ySampling != 1)

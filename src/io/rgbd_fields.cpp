@@ -16,13 +16,19 @@ namespace {
 
 const std::vector<std::string> kKinds = {"ground", "desk", "wall", "ceiling"};
 
-bool is_kind(const std::string& kind) { return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end(); }
+bool is_kind(const std::string& kind) {
+  return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
+}
 
 /// n·p = d stays what it is when both sides are divided by |n|.
-Plane unit_plane(const Vec3& normal, double offset) { return {normal.normalized(), offset / normal.norm()}; }
+Plane unit_plane(const Vec3& normal, double offset) {
+  return {normal.normalized(), offset / normal.norm()};
+}
 
 /// Long enough to have a direction, and far from overflow.
-bool is_direction(const Vec3& v) { return v.allFinite() && v.norm() > 1e-6 && v.norm() < 1e6; }
+bool is_direction(const Vec3& v) {
+  return v.allFinite() && v.norm() > 1e-6 && v.norm() < 1e6;
+}
 
 GivenSupport parse_support(const std::string& text, const std::string& source) {
   std::vector<std::string> parts(1);
@@ -31,9 +37,7 @@ GivenSupport parse_support(const std::string& text, const std::string& source) {
       parts.emplace_back();
     else
       parts.back() += c;
-  const auto fail = [&](const std::string& expected) {
-    throw InputError(source, "support", shown(text), expected);
-  };
+  const auto fail = [&](const std::string& expected) { throw InputError(source, "support", shown(text), expected); };
   double numbers[4] = {};
   bool good = parts.size() == 4 || parts.size() == 5;
   for (std::size_t i = 0; good && i < 4; ++i) good = to_number(trim(parts[i]), numbers[i]) && std::isfinite(numbers[i]);

@@ -81,7 +81,8 @@ std::string name_of(const cuboids::Support& s) {
 std::vector<Vec3> corners_of(const OrientedBox& box) {
   std::vector<Vec3> corners;
   for (int k = 0; k < 8; ++k)
-    corners.push_back(box.center + box.axes * Vec3((k & 1 ? 1 : -1) * box.half_size.x(), (k & 2 ? 1 : -1) * box.half_size.y(),
+    corners.push_back(box.center + box.axes * Vec3((k & 1 ? 1 : -1) * box.half_size.x(),
+                                                   (k & 2 ? 1 : -1) * box.half_size.y(),
                                                    (k & 4 ? 1 : -1) * box.half_size.z()));
   return corners;
 }
@@ -89,13 +90,16 @@ std::vector<Vec3> corners_of(const OrientedBox& box) {
 std::vector<Vec3> polygon_of(const cuboids::Support& s, const cuboids::Completion& c) {
   if (!s.outline.empty()) return s.outline;
   const bool upright = std::abs(s.plane.normal.z()) < 0.7;
-  Vec3 u = upright ? Vec3(s.plane.normal.cross(Vec3::UnitZ())) : c.cuboids.empty() ? Vec3(Vec3::UnitX()) : c.cuboids.front().box.axes.col(0);
+  Vec3 u = upright             ? Vec3(s.plane.normal.cross(Vec3::UnitZ()))
+           : c.cuboids.empty() ? Vec3(Vec3::UnitX())
+                               : c.cuboids.front().box.axes.col(0);
   u -= u.dot(s.plane.normal) * s.plane.normal;
   u = u.norm() > 1e-3 ? u.normalized() : any_orthogonal(s.plane.normal);
   const Vec3 v = s.plane.normal.cross(u), origin = s.plane.project(Vec3::Zero());
   Eigen::AlignedBox2d reach;
   for (const cuboids::Cuboid& cuboid : c.cuboids)
-    for (const Vec3& corner : corners_of(cuboid.box)) reach.extend(Vec2(u.dot(corner - origin), v.dot(corner - origin)));
+    for (const Vec3& corner : corners_of(cuboid.box))
+      reach.extend(Vec2(u.dot(corner - origin), v.dot(corner - origin)));
   if (reach.isEmpty()) reach.extend(Vec2::Zero());
   const double margin = 0.1 + 0.2 * reach.sizes().maxCoeff();  // m, so that what stands at the edge still stands on it
   const Vec2 low = reach.min().array() - margin, high = reach.max().array() + margin;
@@ -150,7 +154,8 @@ DepthPoints depth_points(const RgbdFrame& frame, const RigidTransform& T_world_c
     return points;
   }
   const std::size_t width = static_cast<std::size_t>(frame.camera.width);
-  const std::size_t step = static_cast<std::size_t>(std::ceil(std::sqrt(std::max(1.0, static_cast<double>(frame.depth.size()) / static_cast<double>(limit)))));
+  const std::size_t step = static_cast<std::size_t>(
+      std::ceil(std::sqrt(std::max(1.0, static_cast<double>(frame.depth.size()) / static_cast<double>(limit)))));
   for (std::size_t i = 0; i < frame.depth.size(); ++i) {
     if (!(frame.depth[i] > 0.0f)) continue;
     ++points.seen;

@@ -8,8 +8,8 @@ namespace unseen::report {
 namespace {
 
 constexpr std::size_t kMostPoints = 200'000;
-constexpr double kHidden = 0.35;   ///< opacity of what was inferred
-constexpr double kSupport = 0.6;   ///< of supports: things may stand behind a wall
+constexpr double kHidden = 0.35;  ///< opacity of what was inferred
+constexpr double kSupport = 0.6;  ///< of supports: things may stand behind a wall
 constexpr Rgb kSupportColor = {200, 200, 195};
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;

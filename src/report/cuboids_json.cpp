@@ -18,7 +18,8 @@ Json axes_of(const Mat3& axes) {
 Json matrix_of(const RigidTransform& t) {
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r)
-    rows.push_back({number(t.rotation(r, 0)), number(t.rotation(r, 1)), number(t.rotation(r, 2)), number(t.translation[r])});
+    rows.push_back(
+        {number(t.rotation(r, 0)), number(t.rotation(r, 1)), number(t.rotation(r, 2)), number(t.translation[r])});
   rows.push_back({0.0, 0.0, 0.0, 1.0});
   return rows;
 }

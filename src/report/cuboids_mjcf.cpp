@@ -14,7 +14,9 @@ namespace {
 
 using cuboids::Completion;
 
-std::string text_of(const Vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z()); }
+std::string text_of(const Vec3& v) {
+  return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z());
+}
 
 std::string quaternion_of(const Mat3& rotation) {
   const Eigen::Quaterniond q(rotation);
@@ -24,9 +26,11 @@ std::string quaternion_of(const Mat3& rotation) {
 /// The box as a geom, its place relative to `origin`.
 std::string geom_of(const cuboids::Cuboid& c, const Vec3& origin, int color) {
   const Rgb rgb = frame_color(color);
-  return fmt::format("<geom name=\"{} geom\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" mass=\"{:.9g}\" rgba=\"{:.3f} {:.3f} {:.3f} 1\"/>\n",
-                     escape(name_of(c)), text_of(c.box.center - origin), quaternion_of(c.box.axes), text_of(c.box.half_size), c.mass(),
-                     rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+  return fmt::format(
+      "<geom name=\"{} geom\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" mass=\"{:.9g}\" rgba=\"{:.3f} {:.3f} "
+      "{:.3f} 1\"/>\n",
+      escape(name_of(c)), text_of(c.box.center - origin), quaternion_of(c.box.axes), text_of(c.box.half_size), c.mass(),
+      rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
 }
 
 /// Axes of a plane: z along its normal.
@@ -38,15 +42,16 @@ Mat3 plane_axes(const Vec3& normal, const Vec3& along) {
   return axes;
 }
 
-/// A support without end is MuJoCo's plane, whose half space is solid; one with an outline is a slab below it, for there
-/// may be things beside or under a desk.
+/// A support without end is MuJoCo's plane, whose half space is solid; one with an outline is a slab below it, for
+/// there may be things beside or under a desk.
 std::string support_geom(const cuboids::Support& s) {
   const std::string name = escape(name_of(s));
   const std::string look = "rgba=\"0.8 0.8 0.78 1\"";
   if (s.outline.size() < 3) {
     const Vec3 origin = s.plane.project(Vec3::Zero());
-    return fmt::format("    <geom name=\"{}\" type=\"plane\" pos=\"{}\" quat=\"{}\" size=\"0 0 1\" {}/>\n", name, text_of(origin),
-                       quaternion_of(plane_axes(s.plane.normal, any_orthogonal(s.plane.normal))), look);
+    return fmt::format("    <geom name=\"{}\" type=\"plane\" pos=\"{}\" quat=\"{}\" size=\"0 0 1\" {}/>\n", name,
+                       text_of(origin), quaternion_of(plane_axes(s.plane.normal, any_orthogonal(s.plane.normal))),
+                       look);
   }
   constexpr double kThickness = 0.02;  // m
   const Mat3 axes = plane_axes(s.plane.normal, s.outline[1] - s.outline[0]);
@@ -55,8 +60,8 @@ std::string support_geom(const cuboids::Support& s) {
   const Vec3 half(0.5 * reach.sizes().x(), 0.5 * reach.sizes().y(), 0.5 * kThickness);
   const Vec3 center = axes.col(0) * reach.center().x() + axes.col(1) * reach.center().y() +
                       s.plane.normal * (s.plane.offset - 0.5 * kThickness);
-  return fmt::format("    <geom name=\"{}\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" {}/>\n", name, text_of(center),
-                     quaternion_of(axes), text_of(half), look);
+  return fmt::format("    <geom name=\"{}\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" {}/>\n", name,
+                     text_of(center), quaternion_of(axes), text_of(half), look);
 }
 
 std::string group_body(const Completion& c, const RigidGroup& group) {
@@ -83,17 +88,20 @@ std::string group_body(const Completion& c, const RigidGroup& group) {
 }  // namespace
 
 std::string cuboids_mjcf(const Completion& c, double friction) {
-  // Every pair of boxes may touch at up to eight points; MuJoCo 2.2 wants to know before.
-  const std::size_t contacts = 200 + 100 * c.cuboids.size();
+  // MuJoCo 2.2 wants to know before how much may touch. A box of a full wall has 10 contact points; its default memory
+  // (nstack, numbers) grows with the square of all constraints and is far more than a sparse contact graph takes.
+  const std::size_t boxes = c.cuboids.size(), contacts = 100 + 24 * boxes, constraints = 36 * boxes;
+  const std::size_t numbers = 1'000'000 + 2 * constraints * constraints;
   std::string text = fmt::format(
       "<mujoco model=\"unseen\">\n"
       "  <compiler angle=\"radian\"/>\n"
-      "  <option timestep=\"0.001\" gravity=\"0 0 -9.81\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\"/>\n"
-      "  <size nconmax=\"{}\" njmax=\"{}\"/>\n"
+      "  <option timestep=\"0.001\" gravity=\"0 0 -9.81\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" "
+      "noslip_iterations=\"5\"/>\n"
+      "  <size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>\n"
       "  <default>\n    <geom friction=\"{:.9g} 0.005 0.0001\"/>\n  </default>\n"
       "  <visual>\n    <global offwidth=\"1280\" offheight=\"960\"/>\n  </visual>\n"
       "  <worldbody>\n    <light directional=\"true\" pos=\"0 0 3\" dir=\"0.2 0.3 -1\"/>\n",
-      contacts, 4 * contacts, friction);
+      contacts, 3 * contacts, numbers, friction);
   for (const cuboids::Support& support : c.supports) text += support_geom(support);
   for (const RigidGroup& group : rigid_groups(c)) text += group_body(c, group);
   return text + "  </worldbody>\n</mujoco>\n";

@@ -23,24 +23,40 @@ Json column(std::string_view name, std::string_view unit = "", int digits = -1) 
   return json;
 }
 
-/// "0.412 × 0.263 × 0.150"
+/// "41.2 × 26.3 × 15.0"
 std::string sizes(const OrientedBox& box) {
-  const Vec3 s = 2.0 * box.half_size;
-  return fmt::format("{:.3f} × {:.3f} × {:.3f}", s.x(), s.y(), s.z());
+  const Vec3 s = 200.0 * box.half_size;  // cm
+  return fmt::format("{:.1f} × {:.1f} × {:.1f}", s.x(), s.y(), s.z());
 }
 
 void add_box_table(SceneBuilder& scene, const Completion& c) {
   Json rows = Json::array();
   for (const cuboids::Cuboid& cuboid : c.cuboids) {
     const bool unsupported = std::find(c.unsupported.begin(), c.unsupported.end(), cuboid.id) != c.unsupported.end();
-    rows.push_back({cuboid.id, cuboid.label, sizes(cuboid.box), sizes(cuboid.initial), number(cuboid.mass()),
-                    cuboid.visible_points, unsupported ? "unsupported" : cuboid.by_symmetry ? "by symmetry" : ""});
+    const std::string remark = unsupported                    ? "unsupported"
+                               : cuboid.by_symmetry           ? "by symmetry"
+                               : hidden_boxes(cuboid).empty() ? ""
+                                                              : "completed";
+    rows.push_back({name_of(cuboid), sizes(cuboid.box), cuboid.by_symmetry ? "–" : sizes(cuboid.initial), remark,
+                    number(cuboid.mass()), cuboid.visible_points});
   }
   scene.header["tables"].push_back({{"title", "Boxes"},
                                     {"structure", "boxes"},
                                     {"columns",
-                                     {column("box"), column("label"), column("size", "m"), column("seen size", "m"),
-                                      column("mass", "kg", 3), column("points"), column("remark")}},
+                                     {column("box"), column("size", "cm"), column("seen", "cm"), column("remark"),
+                                      column("mass", "kg", 2), column("points")}},
+                                    {"rows", std::move(rows)}});
+}
+
+void add_support_table(SceneBuilder& scene, const Completion& c) {
+  Json rows = Json::array();
+  for (const cuboids::Support& s : c.supports) {
+    const Vec3& n = s.plane.normal;
+    rows.push_back({name_of(s), fmt::format("{:.3f}, {:.3f}, {:.3f}", n.x(), n.y(), n.z()), number(s.plane.offset)});
+  }
+  scene.header["tables"].push_back({{"title", "Supports"},
+                                    {"structure", "supports"},
+                                    {"columns", {column("support"), column("normal"), column("offset", "m", 3)}},
                                     {"rows", std::move(rows)}});
 }
 
@@ -52,7 +68,8 @@ void add_contact_table(SceneBuilder& scene, const Completion& c) {
   const std::vector<CarriedContact> carried = carried_contacts(c);
   for (std::size_t k = 0; k < carried.size(); ++k) {
     const bool known = !c.contacts[k].forces.empty();
-    rows.push_back({names[carried[k].from], names[carried[k].to], cuboids::kContactKinds[static_cast<int>(c.contacts[k].kind)],
+    rows.push_back({names[carried[k].from], names[carried[k].to],
+                    cuboids::kContactKinds[static_cast<int>(c.contacts[k].kind)],
                     known ? number(carried[k].force.norm()) : Json(nullptr), c.contacts[k].points.size()});
   }
   scene.header["tables"].push_back(
@@ -63,8 +80,11 @@ void add_contact_table(SceneBuilder& scene, const Completion& c) {
 
 Json facts_of(const Completion& c, const OptionTable& options) {
   Json facts = Json::array();
-  const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
-  const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(), [](const auto& cuboid) { return !hidden_boxes(cuboid).empty(); });
+  const auto fact = [&](std::string_view name, std::string value) {
+    facts.push_back({{"name", name}, {"value", std::move(value)}});
+  };
+  const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(),
+                                       [](const auto& cuboid) { return !hidden_boxes(cuboid).empty(); });
   fact("stands", c.stability.stable ? "yes" : "no");
   fact("boxes", std::to_string(c.cuboids.size()));
   fact("boxes completed", std::to_string(completed));
@@ -107,7 +127,8 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
     header["options"].push_back({{"name", o.name}, {"value", o.text()}, {"unit", o.unit}, {"help", o.help}});
   header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
   const DepthPoints points = depth_points(frame, c.T_world_camera, kMostPoints);
-  if (points.positions.size() < points.seen) header["thinned"] = {{"shown", points.positions.size()}, {"of", points.seen}};
+  if (points.positions.size() < points.seen)
+    header["thinned"] = {{"shown", points.positions.size()}, {"of", points.seen}};
   add_boxes(scene, c);
   add_contact_graph(scene, c);
   add_supports(scene, c);
@@ -115,6 +136,7 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
   add_camera(scene, c, frame);
   add_box_table(scene, c);
   add_contact_table(scene, c);
+  add_support_table(scene, c);
   return scene.encode();
 }
 

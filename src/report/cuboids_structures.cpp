@@ -11,6 +11,8 @@ namespace {
 
 using cuboids::Completion;
 
+constexpr std::array<std::uint8_t, 3> kSupportColor = {176, 176, 170};
+
 struct Poses {
   std::vector<Vec3> centers, sizes;
   std::vector<float> rotations;  ///< w, x, y, z
@@ -37,7 +39,8 @@ OrientedBox aligned(const OrientedBox& initial, const OrientedBox& to) {
   for (int a = 0; a < 2; ++a) {
     int best = -1;
     for (int k = 0; k < 3; ++k)
-      if (!used[k] && (best < 0 || std::abs(initial.axes.col(k).dot(to.axes.col(a))) > std::abs(initial.axes.col(best).dot(to.axes.col(a)))))
+      if (!used[k] && (best < 0 || std::abs(initial.axes.col(k).dot(to.axes.col(a))) >
+                                       std::abs(initial.axes.col(best).dot(to.axes.col(a)))))
         best = k;
     used[best] = true;
     const double sign = initial.axes.col(best).dot(to.axes.col(a)) < 0 ? -1.0 : 1.0;
@@ -149,8 +152,7 @@ void add_supports(SceneBuilder& scene, const Completion& c) {
   std::vector<Vec3> vertices, normals;
   std::vector<std::array<int, 2>> rings;
   std::vector<std::array<int, 3>> triangles;
-  std::vector<int> owner, own;
-  std::vector<std::string> names;
+  std::vector<int> owner;
   for (std::size_t s = 0; s < c.supports.size(); ++s) {
     const std::vector<Vec3> polygon = polygon_of(c.supports[s], c);
     const int first = static_cast<int>(vertices.size());
@@ -161,8 +163,6 @@ void add_supports(SceneBuilder& scene, const Completion& c) {
       owner.push_back(static_cast<int>(s));
     }
     normals.push_back(c.supports[s].plane.normal);
-    own.push_back(-1);
-    names.push_back(name_of(c.supports[s]));
   }
   Json& planes = scene.add("planes", "supports", "Supports");
   planes["vertices"] = scene.positions(vertices);
@@ -170,19 +170,34 @@ void add_supports(SceneBuilder& scene, const Completion& c) {
   planes["triangles"] = scene.triples(triangles);
   planes["triangle_plane"] = scene.integers(owner);
   planes["normals"] = scene.vectors(normals);
-  Json support = quantity("support", "Support", "label", scene.integers(own));
-  support["names"] = names;
-  planes["quantities"].push_back(support);
+  const std::vector<std::array<std::uint8_t, 3>> plain(c.supports.size(), kSupportColor);
+  planes["quantities"].push_back(quantity("plain", "Plain", "color", scene.colors(plain)));
 }
 
 void add_depth(SceneBuilder& scene, const Completion& c, const DepthPoints& points) {
-  if (points.positions.empty()) return;
-  Json& cloud = scene.add("points", "points", "Measured points");
-  cloud["positions"] = scene.point_positions(points.positions);
-  if (!points.colors.empty()) cloud["quantities"].push_back(quantity("photograph", "Photograph", "color", scene.colors(points.colors)));
-  Json box = quantity("box", "Box", "label", scene.integers(cuboid_of_point(points.positions, c.cuboids)));
-  box["structure"] = "boxes";
-  cloud["quantities"].push_back(box);
+  const std::vector<int> owner = cuboid_of_point(points.positions, c.cuboids);
+  // What lies on a box hides its face, and is hidden by it, pixel by pixel: it starts out of sight.
+  for (const bool on_boxes : {false, true}) {
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::uint8_t, 3>> colors;
+    std::vector<int> boxes;
+    for (std::size_t i = 0; i < owner.size(); ++i) {
+      if ((owner[i] >= 0) != on_boxes) continue;
+      positions.push_back(points.positions[i]);
+      if (!points.colors.empty()) colors.push_back(points.colors[i]);
+      boxes.push_back(owner[i]);
+    }
+    if (positions.empty()) continue;
+    Json& cloud =
+        scene.add("points", on_boxes ? "points" : "surroundings", on_boxes ? "Points on boxes" : "Other points");
+    cloud["visible"] = !on_boxes;
+    cloud["positions"] = scene.point_positions(positions);
+    if (!colors.empty())
+      cloud["quantities"].push_back(quantity("photograph", "Photograph", "color", scene.colors(colors)));
+    Json box = quantity("box", "Box", "label", scene.integers(boxes));
+    box["structure"] = "boxes";
+    cloud["quantities"].push_back(box);
+  }
 }
 
 void add_camera(SceneBuilder& scene, const Completion& c, const RgbdFrame& frame) {

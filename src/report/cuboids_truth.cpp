@@ -44,7 +44,8 @@ std::string cuboids_truth_json(const cuboids::SynthView& view, const OptionTable
                                {"axes", axes},
                                {"size", vector_of(cuboid.size)},
                                {"density", number(cuboid.density)},
-                               {"hidden", hidden}});
+                               {"hidden", hidden},
+                               {"seen", vector_of(cuboid.seen)}});
   }
   json["contacts"] = Json::array();
   for (const cuboids::Contact& contact : truth.contacts)

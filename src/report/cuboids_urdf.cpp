@@ -15,7 +15,9 @@ namespace {
 
 using cuboids::Completion;
 
-std::string text_of(const Vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z()); }
+std::string text_of(const Vec3& v) {
+  return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z());
+}
 
 /// Roll, pitch and yaw as URDF has them: R = Rz(yaw) Ry(pitch) Rx(roll).
 Vec3 roll_pitch_yaw(const Mat3& r) {
@@ -42,11 +44,14 @@ std::string link_text(const Link& l, double friction) {
   std::string text = fmt::format("  <link name=\"{}\">\n", l.name);
   if (l.mass > 0) {
     const Vec3 s = l.size.cwiseAbs2() * (l.mass / 12.0);
-    text += fmt::format("    <inertial><mass value=\"{:.9g}\"/><inertia ixx=\"{:.9g}\" iyy=\"{:.9g}\" izz=\"{:.9g}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>\n",
-                        l.mass, s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
+    text += fmt::format(
+        "    <inertial><mass value=\"{:.9g}\"/><inertia ixx=\"{:.9g}\" iyy=\"{:.9g}\" izz=\"{:.9g}\" ixy=\"0\" "
+        "ixz=\"0\" iyz=\"0\"/></inertial>\n",
+        l.mass, s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
   }
-  text += fmt::format("    <visual>{}<material name=\"{} colour\"><color rgba=\"{:.3f} {:.3f} {:.3f} 1\"/></material></visual>\n", shape, l.name,
-                      l.color[0] / 255.0, l.color[1] / 255.0, l.color[2] / 255.0);
+  text += fmt::format(
+      "    <visual>{}<material name=\"{} colour\"><color rgba=\"{:.3f} {:.3f} {:.3f} 1\"/></material></visual>\n",
+      shape, l.name, l.color[0] / 255.0, l.color[1] / 255.0, l.color[2] / 255.0);
   text += fmt::format("    <collision>{}</collision>\n", shape);
   text += fmt::format("    <contact><lateral_friction value=\"{:.9g}\"/></contact>\n  </link>\n", friction);
   return text;
@@ -55,12 +60,17 @@ std::string link_text(const Link& l, double friction) {
 std::string joint_text(const std::string& type, const Link* parent, const Link& child) {
   const RigidTransform place = parent ? parent->T_world_link.inverse() * child.T_world_link : child.T_world_link;
   const std::string parent_name = parent ? parent->name : "world";
-  return fmt::format("  <joint name=\"{}_to_{}\" type=\"{}\">\n    <parent link=\"{}\"/><child link=\"{}\"/>{}\n  </joint>\n", child.name,
-                     parent_name, type, parent_name, child.name, origin_of(place));
+  return fmt::format(
+      "  <joint name=\"{}_to_{}\" type=\"{}\">\n    <parent link=\"{}\"/><child link=\"{}\"/>{}\n  </joint>\n",
+      child.name, parent_name, type, parent_name, child.name, origin_of(place));
 }
 
 Link link_of(const cuboids::Cuboid& c, std::size_t index) {
-  return {fmt::format("box_{}", c.id), {c.box.axes, c.box.center}, 2.0 * c.box.half_size, c.mass(), frame_color(static_cast<int>(index))};
+  return {fmt::format("box_{}", c.id),
+          {c.box.axes, c.box.center},
+          2.0 * c.box.half_size,
+          c.mass(),
+          frame_color(static_cast<int>(index))};
 }
 
 /// URDF has no planes: a slab below the outline.
@@ -81,7 +91,8 @@ Link link_of(const cuboids::Support& s, const Completion& c) {
 }
 
 /// A joint for every box: fixed contacts as a tree from each group's root, whatever cycles they make.
-std::string joints_of(const Completion& c, const std::vector<Link>& links, const std::map<int, std::size_t>& link_of_id) {
+std::string joints_of(const Completion& c, const std::vector<Link>& links,
+                      const std::map<int, std::size_t>& link_of_id) {
   std::vector<std::vector<std::size_t>> fixed(links.size());
   for (const cuboids::Contact& contact : c.contacts) {
     if (contact.kind != cuboids::ContactKind::fixed) continue;

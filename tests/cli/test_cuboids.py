@@ -72,9 +72,10 @@ class Cuboids(CliTest):
         self.assertTrue(numpy.allclose(carried[of_supports].sum(0), total, atol=1e-4))
 
         depth, owner, _ = frames.render()
-        self.assertEqual(scene["points"]["positions"]["count"], int(numpy.isfinite(depth).sum()))
-        self.assertEqual({tuple(c) for c in scene.array(scene["points"]["quantities"][0]["array"])},
-                         {frames.COLORS[i] for i in set(owner[owner >= 0])})
+        clouds = [s for s in scene.header["structures"] if s["kind"] == "points"]
+        self.assertEqual(sum(cloud["positions"]["count"] for cloud in clouds), int(numpy.isfinite(depth).sum()))
+        colors = {tuple(c) for cloud in clouds for c in scene.array(cloud["quantities"][0]["array"])}
+        self.assertEqual(colors, {frames.COLORS[i] for i in set(owner[owner >= 0])})
         camera = scene["camera"]
         self.assertTrue(numpy.allclose(numpy.reshape(camera["T_world_camera"], (4, 4)), result["T_world_camera"]))
         picture = scene.array(scene[camera["image"]]["data"]).tobytes()
@@ -135,6 +136,56 @@ class Cuboids(CliTest):
         again, = scenes_of(self.folder / "out/report.html")
         self.assertEqual({s["id"] for s in again.header["structures"]}, {"boxes", "contacts", "supports"})
         self.assertEqual(again["boxes"], first["boxes"])
+
+
+class Check(CliTest):
+    """unseen cuboids --check: a block of 2 m on a beam of 4 m, at its middle and over its end."""
+
+    def assembly(self, x, **more):
+        blocks = [{"id": "beam", "center": [0, 0, 0.5], "size": [4, 1, 1]}, {"id": 7, "center": [x, 0, 1.5], "size": [2, 1, 1]}]
+        (self.folder / "a.json").write_text(json.dumps({"blocks": blocks, **more}))
+
+    def test_verdicts_and_exit_codes(self):
+        self.assembly(0.5)
+        run = self.unseen("cuboids", "--check", "a.json", "--support", "beam")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertIn("stands", run.stdout)
+        self.assembly(2.2)  # its centre is beyond the beam's end at 2 m
+        run = self.unseen("cuboids", "--check", "a.json", "--support", "beam")
+        self.assertEqual((run.returncode, run.stderr), (4, ""))
+        self.assertIn("falls", run.stdout)
+
+    def test_json(self):
+        self.assembly(0.5, supports=["beam"])
+        run = self.unseen("cuboids", "--check", "a.json", "--mu", "0.6", "--json")
+        verdict = json.loads(run.stdout)
+        self.assertEqual((verdict["stable"], verdict["friction"], verdict["supports"]), (True, 0.6, ["beam"]))
+        # Pushed aside the block slides at 0.6 g; across the beam (half width and half height 0.5 m) it would tip at 1 g.
+        self.assertAlmostEqual(verdict["margin"], 0.6, 2)
+        self.assertAlmostEqual(verdict["friction_needed"], 0, 2)
+        weight = numpy.sum([c["forces"] for c in verdict["contacts"]], (0, 1))
+        sign = 1 if verdict["contacts"][0]["b"] == "7" else -1
+        self.assertTrue(numpy.allclose(sign * weight, [0, 0, 2 * 2400 * 9.81], rtol=1e-3, atol=1), weight)
+        self.assembly(2.2, supports=["beam"])
+        falling = json.loads(self.unseen("cuboids", "--check", "a.json", "--json").stdout)
+        self.assertEqual([c["block"] for c in falling["collapse"]], ["7"])
+
+    def test_up_decides(self):
+        self.assembly(0.5)
+        self.assertEqual(self.unseen("cuboids", "--check", "a.json", "--support", "beam", "--up", "0,0,-1").returncode, 4)
+        self.assertEqual(self.unseen("cuboids", "--check", "a.json", "--support", "beam", "--up=-0.5,0,1").returncode, 0)  # 26.6° < atan 0.7
+        self.assertEqual(self.unseen("cuboids", "--check", "a.json", "--support", "beam", "--up=-0.8,0,1").returncode, 4)
+
+    def test_refused(self):
+        self.assembly(0.5)
+        self.assert_one_line(self.unseen("cuboids", "--check", "a.json"), 2, "--support ID")
+        self.assert_one_line(self.unseen("cuboids", "--check", "a.json", "--support", "roof"), 3, "roof")
+        self.assert_one_line(self.unseen("cuboids", "--check", "a.json", "--support", "beam", "--up", "0,0,0"), 2, "up")
+        self.assert_one_line(self.unseen("cuboids", "--check", "a.json", "frame.json"), 2, "FRAME")
+        self.assert_one_line(self.unseen("cuboids", "frame.json", "-o", "out", "--up", "0,0,1"), 2, "--check")
+        self.assert_one_line(self.unseen("cuboids", "--check", "none.json", "--support", "beam"), 3, "none.json")
+        (self.folder / "a.json").write_text("[" * 100000)
+        self.assert_one_line(self.unseen("cuboids", "--check", "a.json", "--support", "beam"), 3, "a.json")
 
 
 class Refused(CliTest):

@@ -15,11 +15,13 @@ TEST(CuboidParts, SeenAndHiddenFillTheBoxOnce) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int trial = 0; trial < 50; ++trial) {
-    cuboids::Cuboid c = cuboids::sample_box(0, {uniform(random), uniform(random), uniform(random)}, 3 * uniform(random), {0.4, 0.3, 0.2});
+    cuboids::Cuboid c = cuboids::sample_box(0, {uniform(random), uniform(random), uniform(random)}, 3 * uniform(random),
+                                            {0.4, 0.3, 0.2});
     // The initial box is any part of it; in every fifth trial an end is that of the whole.
     for (int a = 0; a < 3; ++a) {
       const double h = c.box.half_size[a];
-      const double low = trial % 5 == 0 ? -h : -h + 0.4 * h * (uniform(random) + 1), high = h - 0.4 * h * (uniform(random) + 1);
+      const double low = trial % 5 == 0 ? -h : -h + 0.4 * h * (uniform(random) + 1),
+                   high = h - 0.4 * h * (uniform(random) + 1);
       c.initial.center += c.box.axes.col(a) * (0.5 * (low + high));
       c.initial.half_size[a] = 0.5 * (high - low);
     }
@@ -29,7 +31,9 @@ TEST(CuboidParts, SeenAndHiddenFillTheBoxOnce) {
     for (const OrientedBox& part : hidden) volume += part.volume();
     EXPECT_NEAR(volume, c.box.volume(), 1e-12);
     for (int k = 0; k < 200; ++k) {
-      const Vec3 inside = c.box.center + c.box.axes * (c.box.half_size.cwiseProduct(Vec3(uniform(random), uniform(random), uniform(random))));
+      const Vec3 inside =
+          c.box.center +
+          c.box.axes * (c.box.half_size.cwiseProduct(Vec3(uniform(random), uniform(random), uniform(random))));
       int owners = seen.contains(inside);
       for (const OrientedBox& part : hidden) owners += part.contains(inside);
       EXPECT_EQ(owners, 1);
@@ -94,7 +98,8 @@ TEST(CuboidParts, SupportsAreDrawnUnderAllBoxes) {
   for (const cuboids::Cuboid& cuboid : c.cuboids)
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec3 along = polygon[(k + 1) % 4] - polygon[k];
-      EXPECT_GT(along.cross(cuboid.box.center - polygon[k]).z(), 0) << "a box beside its ground, or the wrong way round";
+      EXPECT_GT(along.cross(cuboid.box.center - polygon[k]).z(), 0)
+          << "a box beside its ground, or the wrong way round";
     }
 }
 

@@ -18,7 +18,8 @@ std::string json_of(const cuboids::Completion& c) {
 }
 
 TEST(CuboidsResult, RoundTripGivesTheSameText) {
-  for (const cuboids::Completion& c : {cuboids::sample_completion(), cuboids::sample_tower(5, 0.013), cuboids::Completion{}}) {
+  for (const cuboids::Completion& c :
+       {cuboids::sample_completion(), cuboids::sample_tower(5, 0.013), cuboids::Completion{}}) {
     const std::string text = json_of(c);
     const cuboids::Completion back = parse_cuboids_result(text, "memory");
     EXPECT_EQ(back.T_world_camera.rotation, c.T_world_camera.rotation);
@@ -104,7 +105,8 @@ TEST(CuboidsResult, RefusesWhatContradictsItself) {
 
 TEST(CuboidsResult, RefusesHostileText) {
   const std::string good = json_of(cuboids::sample_completion());
-  for (const std::string& text : {std::string(), std::string("["), std::string("[]"), std::string(1 << 20, '['), good.substr(0, good.size() / 2)})
+  for (const std::string& text :
+       {std::string(), std::string("["), std::string("[]"), std::string(1 << 20, '['), good.substr(0, good.size() / 2)})
     EXPECT_THROW(parse_cuboids_result(text, "a.json"), InputError) << text.substr(0, 40);
   const auto whole = nlohmann::json::parse(good);
   for (const auto& [key, value] : whole.items()) {

@@ -47,7 +47,8 @@ inline Completion sample_completion() {
   wall.kind = SupportKind::wall;
   wall.plane = {-Vec3::UnitY(), -1.6};
   c.supports = {desk, wall};
-  c.cuboids = {sample_box(2, {0.1, 1.0, 0.1}, 0.3, {0.3, 0.2, 0.2}), sample_box(3, {0.1, 1.0, 0.27}, 0.5, {0.2, 0.16, 0.14}),
+  c.cuboids = {sample_box(2, {0.1, 1.0, 0.1}, 0.3, {0.3, 0.2, 0.2}),
+               sample_box(3, {0.1, 1.0, 0.27}, 0.5, {0.2, 0.16, 0.14}),
                sample_box(7, {-0.2, 1.5, 0.6}, 0.0, {0.4, 0.2, 0.05})};
   c.cuboids[0].initial.center.z() = 0.16;  // seen: the upper 8 cm
   c.cuboids[0].initial.half_size.z() = 0.04;
@@ -61,7 +62,8 @@ inline Completion sample_completion() {
   hung.kind = ContactKind::fixed;
   hung.direction = -Vec3::UnitY();
   hung.points = {{-0.2, 1.6, 0.6}};
-  c.contacts = {sample_contact(0, 2, {0.1, 1.0, 0}, 0.09, lower + upper), sample_contact(2, 3, {0.1, 1.0, 0.2}, 0.07, upper), hung};
+  c.contacts = {sample_contact(0, 2, {0.1, 1.0, 0}, 0.09, lower + upper),
+                sample_contact(2, 3, {0.1, 1.0, 0.2}, 0.07, upper), hung};
   c.stability = {1.0 / 3.0 * 1e-9, true, 0.25, 0.1};
   c.fixed_contacts = 1;
   c.extended_volume = 0.3 * 0.2 * 0.12;

@@ -43,7 +43,9 @@ class Xml {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw std::runtime_error(what + " at " + std::to_string(at_)); }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw std::runtime_error(what + " at " + std::to_string(at_));
+  }
   char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   void expect(const std::string& token) {
     if (text_.compare(at_, token.size(), token) != 0) fail("no " + token);
@@ -102,14 +104,19 @@ struct Robot {
     EXPECT_EQ(root.name, "robot");
     std::set<std::string> joints;
     for (const Element& e : root.children) {
-      if (e.name == "link") EXPECT_TRUE(links.emplace(e.attributes.at("name"), e).second) << "two links of a name";
+      if (e.name == "link") {
+        EXPECT_TRUE(links.emplace(e.attributes.at("name"), e).second) << "two links of a name";
+      }
       if (e.name != "joint") continue;
       EXPECT_TRUE(joints.insert(e.attributes.at("name")).second) << "two joints of a name";
-      const std::string child = e.child("child").attributes.at("link"), parent = e.child("parent").attributes.at("link");
-      EXPECT_TRUE(parent_and_type.emplace(child, std::pair(parent, e.attributes.at("type"))).second) << child << " has two parents";
+      const std::string child = e.child("child").attributes.at("link"),
+                        parent = e.child("parent").attributes.at("link");
+      EXPECT_TRUE(parent_and_type.emplace(child, std::pair(parent, e.attributes.at("type"))).second)
+          << child << " has two parents";
       const Vec3 rpy = vector_of(e.child("origin").attributes.at("rpy"));
       place[child] = {(Eigen::AngleAxisd(rpy.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Vec3::UnitY()) *
-                       Eigen::AngleAxisd(rpy.x(), Vec3::UnitX())).toRotationMatrix(),
+                       Eigen::AngleAxisd(rpy.x(), Vec3::UnitX()))
+                          .toRotationMatrix(),
                       vector_of(e.child("origin").attributes.at("xyz"))};
     }
   }
@@ -136,10 +143,14 @@ TEST(Urdf, BoxesStandWhereTheyAre) {
     EXPECT_LT((t.translation - cuboid.box.center).norm(), 1e-7);
     EXPECT_LT((t.rotation - cuboid.box.axes).norm(), 1e-7);
     const Element& link = robot.links.at(name);
-    EXPECT_LT((vector_of(link.child("collision").child("geometry").child("box").attributes.at("size")) - 2 * cuboid.box.half_size).norm(), 1e-7);
+    EXPECT_LT((vector_of(link.child("collision").child("geometry").child("box").attributes.at("size")) -
+               2 * cuboid.box.half_size)
+                  .norm(),
+              1e-7);
     EXPECT_NEAR(std::stod(link.child("inertial").child("mass").attributes.at("value")), cuboid.mass(), 1e-7);
     const double width = 2 * cuboid.box.half_size.x(), depth = 2 * cuboid.box.half_size.y();
-    EXPECT_NEAR(std::stod(link.child("inertial").child("inertia").attributes.at("izz")), cuboid.mass() * (width * width + depth * depth) / 12, 1e-9);
+    EXPECT_NEAR(std::stod(link.child("inertial").child("inertia").attributes.at("izz")),
+                cuboid.mass() * (width * width + depth * depth) / 12, 1e-9);
   }
   EXPECT_EQ(robot.parent_and_type.at("box_2"), (std::pair<std::string, std::string>("world", "floating")));
   EXPECT_EQ(robot.parent_and_type.at("box_7"), (std::pair<std::string, std::string>("support_1", "fixed")));
@@ -166,7 +177,9 @@ TEST(Urdf, SupportsWithoutEndAreLargeEnough) {
   const Completion c = sample_tower(3, 0.02);
   const Robot robot(report::cuboids_urdf(c, 0.7));
   const RigidTransform ground = robot.in_world("support_0");
-  const Vec3 half = 0.5 * vector_of(robot.links.at("support_0").child("collision").child("geometry").child("box").attributes.at("size"));
+  const Vec3 half =
+      0.5 *
+      vector_of(robot.links.at("support_0").child("collision").child("geometry").child("box").attributes.at("size"));
   EXPECT_NEAR((ground * Vec3(0, 0, half.z())).z(), 0.0, 1e-9);  // its upper face is the plane
   for (const Cuboid& cuboid : c.cuboids) {
     const Vec3 p = ground.inverse() * cuboid.box.center;

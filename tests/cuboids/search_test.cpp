@@ -22,11 +22,12 @@ Cuboid cuboid(const Vec3& center, const Vec3& size, double yaw = 0.0) {
 }
 
 /// Boxes over a ground, whose faces may all move by `room`, but upward.
-Problem problem_of(std::vector<Cuboid> cuboids, double room) {
+Problem problem_of(std::vector<Cuboid> cuboids, double room, double push = 0.0) {
   Problem problem;
   problem.supports.push_back({0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}});
   problem.cuboids = std::move(cuboids);
   problem.tolerance.assign(problem.cuboids.size(), kTolerance);
+  problem.push = push;
   Rooms rooms(problem.cuboids.size());
   for (Extension& e : rooms) e = {room, room, room, room, room, 0.0};
   problem.hypotheses = propose_contacts(problem, rooms);
@@ -67,7 +68,7 @@ struct Exhaustive {
     }
     ++tried;
     const Arrangement a = arrange(problem, chosen);
-    const Cost cost = {static_cast<int>(a.fixed.size()), a.extended_volume};
+    const Cost cost = {static_cast<double>(a.fixed.size()), a.extended_volume};
     if (found && !cheaper(cost, best)) return;
     if (penetrates(problem, a)) return;
     const std::vector<char> held(problem.bodies(), 0);

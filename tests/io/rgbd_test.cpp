@@ -9,10 +9,13 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "unseen/core/error.h"
@@ -34,7 +37,9 @@ class Rgbd : public testing::Test {
     folder_ = pattern;
     cv::Mat depth(kHeight, kWidth, CV_16UC1), color(kHeight, kWidth, CV_8UC3), masks(kHeight, kWidth, CV_8UC1);
     for (int i = 0; i < kWidth * kHeight; ++i) {
-      depth.at<std::uint16_t>(i / kWidth, i % kWidth) = static_cast<std::uint16_t>(i == 0 ? 0 : i == 1 ? 65535 : 1000 + 10 * i);
+      depth.at<std::uint16_t>(i / kWidth, i % kWidth) = static_cast<std::uint16_t>(i == 0   ? 0
+                                                                                   : i == 1 ? 65535
+                                                                                            : 1000 + 10 * i);
       color.at<cv::Vec3b>(i / kWidth, i % kWidth) = {1, 2, static_cast<std::uint8_t>(i)};
       masks.at<std::uint8_t>(i / kWidth, i % kWidth) = static_cast<std::uint8_t>(i % 3);
     }
@@ -47,7 +52,9 @@ class Rgbd : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   std::string file(const std::string& name) const { return (folder_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(file(name), std::ios::binary) << text; }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name), std::ios::binary) << text;
+  }
   void frame(const std::string& fields, const std::string& camera = kCamera) const {
     write("frame.json", "{" + fields + (camera.empty() ? "" : ", " + camera) + "}");
   }
@@ -61,10 +68,12 @@ class Rgbd : public testing::Test {
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
       EXPECT_FALSE(e.found.empty()) << e.what();
       EXPECT_FALSE(e.expected.empty()) << e.what();
-      for (const std::string& word : words) EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what() << " lacks " << word;
+      for (const std::string& word : words)
+        EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what() << " lacks " << word;
     }
   }
-  void refused_fields(const std::string& more, const std::string& field, const std::vector<std::string>& words = {}) const {
+  void refused_fields(const std::string& more, const std::string& field,
+                      const std::vector<std::string>& words = {}) const {
     frame("\"depth\": \"depth.png\", " + more);
     refused(field, words);
   }
@@ -140,14 +149,18 @@ TEST_F(Rgbd, TiffOf16BitsAndOfFloats) {
 
 TEST_F(Rgbd, ExrOfFloats) {
   std::vector<float> metres;
-  for (int i = 0; i < kWidth * kHeight; ++i) metres.push_back(i == 0 ? -1.0f : i == 1 ? std::numeric_limits<float>::infinity() : 1.0f + 0.01f * static_cast<float>(i));
+  for (int i = 0; i < kWidth * kHeight; ++i)
+    metres.push_back(i == 0   ? -1.0f
+                     : i == 1 ? std::numeric_limits<float>::infinity()
+                              : 1.0f + 0.01f * static_cast<float>(i));
   Imf::Header header(kWidth, kHeight);
   header.channels().insert("Z", Imf::Channel(Imf::FLOAT));
   header.channels().insert("A", Imf::Channel(Imf::HALF));
   {
     Imf::OutputFile out(file("depth.exr").c_str(), header);
     Imf::FrameBuffer pixels;
-    pixels.insert("Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(metres.data()), sizeof(float), sizeof(float) * kWidth));
+    pixels.insert(
+        "Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(metres.data()), sizeof(float), sizeof(float) * kWidth));
     out.setFrameBuffer(pixels);
     out.writePixels(kHeight);
   }
@@ -171,7 +184,8 @@ TEST_F(Rgbd, ExrOfFloats) {
 }
 
 TEST_F(Rgbd, OrganisedPcdBringsItsCamera) {
-  std::string text = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 8\nHEIGHT 6\nPOINTS 48\nDATA ascii\n";
+  std::string text =
+      "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 8\nHEIGHT 6\nPOINTS 48\nDATA ascii\n";
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const double z = 1.0 + 0.01 * i, x = (i % kWidth - 3.25) / 20.0 * z, y = (i / kWidth - 2.75) / 25.0 * z;
     text += i < 2 ? "nan nan nan\n" : std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
@@ -211,7 +225,8 @@ TEST_F(Rgbd, FusedCloud) {
 }
 
 TEST_F(Rgbd, MissingOrWrongFiles) {
-  for (const std::string& path : {std::string("nowhere/frame.json"), file("none")}) EXPECT_THROW(read_rgbd_frame(path), InputError);
+  for (const std::string& path : {std::string("nowhere/frame.json"), file("none")})
+    EXPECT_THROW(read_rgbd_frame(path), InputError);
   frame("\"color\": \"color.png\"");
   refused("depth", {"depth image"});
   frame("\"depth\": \"none.png\"");
@@ -240,7 +255,8 @@ TEST_F(Rgbd, DepthsThatAreNone) {
     cv::imwrite(file("depth.png"), cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(value)));
     refused("depth", {"none of 48 pixels", "depth.png"});
   }
-  cv::imwrite(file("depth.tif"), cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN())));
+  cv::imwrite(file("depth.tif"),
+              cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN())));
   frame("\"depth\": \"depth.tif\"");
   refused("depth", {"none of 48 pixels"});
 }
@@ -286,11 +302,14 @@ TEST_F(Rgbd, Hints) {
   refused_fields(R"("up": [0, 1e999, 0])", "");
   refused_fields(R"("up": [0, null, 0])", "up[1]");
   refused_fields(R"("up": "up")", "up");
-  refused_fields(R"("supports": [{"normal": [0, 0, 0], "offset": 1, "kind": "desk"}])", "supports[0].normal", {"not zero"});
+  refused_fields(R"("supports": [{"normal": [0, 0, 0], "offset": 1, "kind": "desk"}])", "supports[0].normal",
+                 {"not zero"});
   refused_fields(R"("supports": [{"normal": [0, 0, 1], "kind": "desk"}])", "supports[0].offset");
-  refused_fields(R"("supports": [{"normal": [0, 0, 1], "offset": 1, "kind": "roof"}])", "supports[0].kind", {"ceiling"});
+  refused_fields(R"("supports": [{"normal": [0, 0, 1], "offset": 1, "kind": "roof"}])", "supports[0].kind",
+                 {"ceiling"});
   refused_fields(R"("supports": {})", "supports");
-  refused_fields(R"("strokes": [{"label": "a", "points": [[1, 1], [8, 1]]}])", "strokes[0].points[1]", {"(8, 1)", "0…7"});
+  refused_fields(R"("strokes": [{"label": "a", "points": [[1, 1], [8, 1]]}])", "strokes[0].points[1]",
+                 {"(8, 1)", "0…7"});
   refused_fields(R"("strokes": [{"label": "a", "points": [[-1, 1]]}])", "strokes[0].points[0]");
   refused_fields(R"("strokes": [{"label": "a", "points": []}])", "strokes[0].points");
   refused_fields(R"("strokes": [{"points": [[1, 1]]}])", "strokes[0].label");
@@ -318,6 +337,33 @@ TEST_F(Rgbd, HostileJson) {
   EXPECT_THROW(read_rgbd_frame(file("frame.json")), InputError);
   fs::resize_file(file("frame.json"), 1 << 30);
   refused("", {"MiB"});
+}
+
+TEST(RealFrames, AreRead) {
+  const fs::path data = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/cuboids";
+  if (!fs::is_directory(data)) GTEST_SKIP() << "no data in " << data << ": real frames not checked";
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator(data)) {
+    if (!fs::exists(entry.path() / "frame.json")) continue;
+    const RgbdFrame frame = read_rgbd_frame(entry.path());
+    EXPECT_EQ(frame.depth.size(),
+              static_cast<std::size_t>(frame.camera.width) * static_cast<std::size_t>(frame.camera.height));
+    EXPECT_EQ(frame.color.size(), frame.depth.size());
+    // What its meta.json says was measured apart from us: the share of known pixels, and the depths in metres.
+    std::ifstream in(entry.path() / "meta.json");
+    const nlohmann::json meta = nlohmann::json::parse(in);
+    std::vector<float> known;
+    std::copy_if(frame.depth.begin(), frame.depth.end(), std::back_inserter(known), [](float d) { return d > 0.0f; });
+    const auto pixels = static_cast<double>(frame.depth.size());
+    EXPECT_NEAR(static_cast<double>(known.size()), meta["valid"].get<double>() * pixels, 0.5) << entry.path();
+    ASSERT_FALSE(known.empty());
+    EXPECT_NEAR(*std::min_element(known.begin(), known.end()), meta["cloud_min"][2].get<double>(), 6e-4)
+        << entry.path();
+    EXPECT_NEAR(*std::max_element(known.begin(), known.end()), meta["cloud_max"][2].get<double>(), 6e-4)
+        << entry.path();
+    ++frames;
+  }
+  EXPECT_GT(frames, 0);
 }
 
 TEST(Supports, FromText) {

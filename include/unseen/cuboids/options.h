@@ -18,6 +18,7 @@ struct Options {
   std::optional<double> gap;       ///< m, between parts of one object; unset = from noise and pixel spacing
   double fill = 0.7;               ///< share of filled voxels in a slab
   double stable_residual = 0.05;   ///< an arrangement with a smaller residual stands
+  double push = 0.1;               ///< g: what stands must bear this horizontal acceleration too; 0 = balance alone
   bool image_edges = true;         ///< pull visible box edges to edges of the colour image
   double time_limit = 10.0;        ///< s, for the search; what is best then is kept
   int seed = 1;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,14 +19,9 @@ struct TrueCuboid {
   std::optional<OrientedBox> box;
   double density = 300.0;    ///< kg/m³
   std::array<double, 6> hidden = {};  ///< share of each face that the camera does not see: −x, +x, −y, +y, −z, +z
-  std::vector<int> labels;            ///< values of the label image that mark it; empty with a pose
+  Vec3 seen = Vec3::Ones();  ///< share of each dimension that what the camera sees of it spans; below 0.9 = hidden
+  std::vector<Vec3> points;  ///< what is visible of it, in the camera's coordinates; only without a pose
   std::string name;
-};
-
-/// Which object each pixel shows, for truth without poses.
-struct LabelImage {
-  int width = 0, height = 0;
-  std::vector<std::int32_t> labels;
 };
 
 /// What a frame really shows. World coordinates as in Completion; contacts are pairs with a kind only.
@@ -38,7 +32,6 @@ struct Truth {
   std::vector<Support> supports;
   std::vector<TrueCuboid> cuboids;
   std::vector<Contact> contacts;
-  LabelImage image;  ///< empty if all cuboids have poses
 };
 
 }  // namespace unseen::cuboids

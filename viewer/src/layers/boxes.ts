@@ -26,6 +26,7 @@ export class BoxesLayer extends ColoredLayer {
   private readonly solidEdges: FatLines;
   private readonly dashedEdges?: FatLines;
   private readonly outline: FatLines;
+  private readonly partial: number[];  // boxes of which a part was not seen
   private readonly ink = inkTable();
   private drawn = -1;
 
@@ -41,6 +42,8 @@ export class BoxesLayer extends ColoredLayer {
     const faces = Array.from({ length: this.count }, (_, i) => kBoxFaces.map((c) => 8 * i + c)).flat();
     const edges = Array.from({ length: 12 * this.count }, (_, i) => Math.floor(i / 12));
     const solid = this.corners(0, this.seen !== undefined), whole = this.corners(0, false);
+    this.partial = Array.from({ length: this.count }, (_, i) => i).filter((i) =>
+      solid.subarray(24 * i, 24 * i + 24).some((v, k) => Math.abs(v - whole[24 * i + k]!) > 1e-5));
     this.solid = new TriMesh(shared, this.table, solid, owner, faces);
     this.solidEdges = new FatLines(shared, this.table, { width: 1.6, shade: 0.55 });
     this.solidEdges.set(this.allEdges(solid), edges);
@@ -48,7 +51,7 @@ export class BoxesLayer extends ColoredLayer {
     if (this.seen) {
       this.shell = new TriMesh(shared, this.table, whole.slice(), owner, faces, undefined, 0.2);
       this.dashedEdges = new FatLines(shared, this.table, { width: 1.8, dash: 5, shade: 0.8 });
-      this.dashedEdges.set(this.allEdges(whole), edges);
+      this.dashedEdges.set(this.inferredEdges(whole), Array.from({ length: 12 * this.partial.length }, (_, k) => this.partial[Math.floor(k / 12)]!));
       this.object.add(this.shell.object, this.dashedEdges.object);
     }
     this.outline = new FatLines(shared, this.ink, { width: 2.6, onTop: true });
@@ -97,6 +100,12 @@ export class BoxesLayer extends ColoredLayer {
     return out;
   }
 
+  private inferredEdges(corners: Float32Array): Float32Array {
+    const all = this.allEdges(corners), out = new Float32Array(72 * this.partial.length);
+    this.partial.forEach((i, k) => out.set(all.subarray(72 * i, 72 * i + 72), 72 * k));
+    return out;
+  }
+
   override update(look: Look) {
     super.update(look);
     setInk(this.ink, look.dark);
@@ -106,7 +115,7 @@ export class BoxesLayer extends ColoredLayer {
       this.solid.move(solid);
       this.solidEdges.move(this.allEdges(solid));
       this.shell?.move(whole);
-      this.dashedEdges?.move(this.allEdges(whole));
+      this.dashedEdges?.move(this.inferredEdges(whole));
     }
     const edges = this.allEdges(this.corners(look.before, false));
     const marked = this.marked();

@@ -93,11 +93,11 @@ export class CameraLayer extends Layer {
   private readonly center = new THREE.Vector3();
   private picture?: THREE.MeshBasicMaterial;
 
-  constructor(context: LayerContext, structure: CameraStructure) {
+  constructor(context: LayerContext, structure: CameraStructure, extent: number) {
     super(context, structure);
     const pose = poseOf(structure);
     const center = this.center.setFromMatrixPosition(pose.matrix);
-    const depth = 0.5;
+    const depth = Math.min(0.5, 0.2 * extent);
     const at = (x: number, y: number) => new THREE.Vector3(((x - pose.cx) / pose.fx) * depth, ((y - pose.cy) / pose.fy) * depth, depth).applyMatrix4(pose.matrix);
     const corners = [at(0, 0), at(pose.width, 0), at(pose.width, pose.height), at(0, pose.height)];
     const mark = [at(pose.width * 0.44, -pose.height * 0.03), at(pose.width * 0.56, -pose.height * 0.03), at(pose.width * 0.5, -pose.height * 0.1)];

@@ -13,7 +13,7 @@ import { sphere } from './solids';
 
 export class GraphLayer extends ColoredLayer {
   private readonly places: Float32Array;
-  private readonly ink = new ElementTable(2);
+  private readonly ink = new ElementTable(3);
 
   constructor(context: LayerContext, structure: GraphStructure, extent: number) {
     const { model, shared } = context;
@@ -36,9 +36,13 @@ export class GraphLayer extends ColoredLayer {
     const segments = new Float32Array(6 * m);
     for (let e = 0; e < m; ++e)
       for (let s = 0; s < 2; ++s) segments.set(this.places.subarray(3 * edges[2 * e + s]!, 3 * edges[2 * e + s]! + 3), 6 * e + 3 * s);
-    const lines = new FatLines(shared, this.ink, { width: 2 });
-    lines.set(segments, new Uint8Array(m));
-    this.object.add(new TriMesh(shared, this.table, vertices, owner, triangles).object, lines.object);
+    // Within what the nodes stand for, and yet to be seen: on top, with a light rim.
+    for (const [ink, width] of [[2, 5], [0, 2.2]] as const) {
+      const lines = new FatLines(shared, this.ink, { width, onTop: true });
+      lines.set(segments, new Uint8Array(m).fill(ink));
+      this.object.add(lines.object);
+    }
+    this.object.add(new TriMesh(shared, this.table, vertices, owner, triangles).object);
     if (structure.vectors) this.addForces(model.floats(structure.vectors), segments, extent);
   }
 
@@ -58,16 +62,19 @@ export class GraphLayer extends ColoredLayer {
       aside.setLength(0.12 * v.length());
       for (const sign of [1, -1]) out.push(...to.toArray(), ...to.clone().addScaledVector(v, -0.22).addScaledVector(aside, sign).toArray());
     }
-    const arrows = new FatLines(this.context.shared, this.ink, { width: 2.4, onTop: true });
-    arrows.set(new Float32Array(out), new Uint8Array(out.length / 6).fill(1));
-    this.object.add(arrows.object);
+    for (const [ink, width] of [[2, 6.5], [1, 3.2]] as const) {
+      const arrows = new FatLines(this.context.shared, this.ink, { width, onTop: true });
+      arrows.set(new Float32Array(out), new Uint8Array(out.length / 6).fill(ink));
+      this.object.add(arrows.object);
+    }
   }
 
   override update(look: Look) {
     super.update(look);
-    const v = look.dark ? 190 : 90;
-    this.ink.set(0, v, v, v, 220);
-    this.ink.set(1, 213, 94, 0, 255);
+    const v = look.dark ? 235 : 40, rim = look.dark ? 20 : 255;
+    this.ink.set(0, v, v, v, 255);
+    this.ink.set(1, 200, 30, 30, 255);
+    this.ink.set(2, rim, rim, rim, 255);
     this.ink.commit();
   }
 

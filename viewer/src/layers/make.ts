@@ -23,15 +23,18 @@ export function makeLayer(context: LayerContext, s: Structure): Layer | null {
     case 'graph': return s.positions ? new GraphLayer(context, s, extentOf(context)) : null;
     case 'trajectory': return new TrajectoryLayer(context, s);
     case 'skeleton': return new SkeletonLayer(context, s);
-    case 'camera': return new CameraLayer(context, s);
+    case 'camera': return new CameraLayer(context, s, extentOf(context));
     case 'image': return new ImageLayer(context, s);
     case 'mesh': return new MeshLayer(context, s);
     default: return null;
   }
 }
 
+/** m: size of what matters in the scene. */
 function extentOf(context: LayerContext): number {
   const box = new THREE.Box3();
-  for (const layer of context.layers.values()) if (!layer.bounds.isEmpty()) box.union(layer.bounds);
+  const focus = context.model.header.focus;
+  if (focus) box.set(new THREE.Vector3(...focus.low), new THREE.Vector3(...focus.high));
+  else for (const layer of context.layers.values()) if (!layer.bounds.isEmpty()) box.union(layer.bounds);
   return box.isEmpty() ? 4 : box.getSize(new THREE.Vector3()).length();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "unseen/io/write_image.h"
+#include "unseen/io/write_png.h"
 
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>

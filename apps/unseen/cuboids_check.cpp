@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids_check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "commands.h"
+#include "session.h"
+#include "unseen/core/error.h"
+#include "unseen/cuboids/check.h"
+#include "unseen/io/assembly.h"
+#include "unseen/report/cuboids_check.h"
+
+namespace unseen::cli {
+namespace {
+
+Vec3 read_up(const std::string& text) {
+  if (text.empty()) return Vec3::UnitZ();
+  std::vector<double> numbers;
+  OptionTable table;
+  table.add({"up", &numbers, "", "", -1e6, 1e6, {}});
+  table.set_text("up", text, kCommandLine);
+  const Vec3 up = numbers.size() == 3 ? Vec3(numbers[0], numbers[1], numbers[2]) : Vec3(Vec3::Zero());
+  if (!(up.norm() > 1e-9)) throw InputError(kCommandLine, "up", text, "x,y,z that are not all 0");
+  return up.normalized();
+}
+
+std::vector<cuboids::Block> blocks_of(const io::Assembly& assembly) {
+  std::vector<cuboids::Block> blocks;
+  for (const io::NamedMesh& named : assembly.blocks) {
+    cuboids::Block block;
+    block.name = named.name;
+    block.mesh = named.mesh;
+    if (named.density) block.density = *named.density;
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+void print_verdict(const cuboids::Check& check, std::size_t blocks, const cuboids::CheckOptions& options) {
+  const cuboids::Stability& s = check.stability;
+  fmt::print("{} blocks, {} contacts, fixed: {}\n", blocks, check.contacts.size(), fmt::join(options.supports, ", "));
+  if (s.stable)
+    fmt::print("stands: bears a sideways push of {:.3f} g, needs a friction of {:.3f} (has {:.4g})\n", s.margin,
+               s.friction_needed, options.friction);
+  else
+    fmt::print("falls\n");
+  fmt::print("residual {:.2g}\n", s.residual);
+}
+
+}  // namespace
+
+int run_check(const CheckArguments& args, const CommonFlags& common) {
+  Session session(common);
+  const io::Assembly assembly = io::read_assembly(args.assembly);
+  cuboids::CheckOptions options;
+  options.supports = args.supports.empty() ? assembly.supports : args.supports;
+  options.up = read_up(args.up);
+  options.friction = args.friction;
+  if (options.supports.empty()) throw UsageError("--support ID is missing: the file names no block that does not move");
+  const std::vector<cuboids::Block> blocks = blocks_of(assembly);
+  const cuboids::Check check = cuboids::check_assembly(blocks, options, session.context);
+  session.progress.clear();
+  if (common.json) {
+    fmt::print("{}", report::check_json(check, blocks, options));
+  } else if (!common.quiet) {
+    print_verdict(check, blocks.size(), options);
+  }
+  return check.stability.stable ? kSolved : kNoSolution;
+}
+
+}  // namespace unseen::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "session.h"
+#include "unseen/cuboids/evaluate.h"
+#include "unseen/io/add_to_result.h"
+#include "unseen/report/cuboids_evaluation.h"
+#include "unseen/report/cuboids_result.h"
+#include "unseen/report/cuboids_truth.h"
+
+namespace unseen::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string result, truth, frame, hidden;
+  CommonFlags common;
+  GivenOptions given;
+  cuboids::EvaluateOptions options;
+
+  OptionTable table() {
+    OptionTable table;
+    table.add({"tolerance", &options.tolerance, "m", "initial boxes this near each other count as touching", 0, 1, {}});
+    table.add({"referee", &options.referee, "", "let MuJoCo decide whether the result stands", {}, {}, {}});
+    table.add({"seconds", &options.seconds, "s", "how long MuJoCo runs", 0.01, 100, {}});
+    table.add({"friction", &options.friction, "1", "friction coefficient in MuJoCo", 0, 10, {}});
+    table.add({"hidden", &hidden, "", "truth without poses: the dimensions that the frame hides, NAME:MILLIMETRES,…", {}, {}, {}});
+    return table;
+  }
+};
+
+cuboids::Truth read_truth(const Arguments& args) {
+  if (args.frame.empty()) return report::read_cuboids_truth(args.truth);
+  return report::read_measured_truth(args.truth, args.frame, report::parse_hidden_dimensions(args.hidden, kCommandLine));
+}
+
+int run(Arguments& args) {
+  OptionTable table = args.table();
+  if (resolve_or_dump(table, args.common, "evaluate", args.given)) return kSolved;
+  require(args.result, "OUT");
+  require(args.truth, "--truth TRUTH");
+
+  Session session(args.common);
+  Context& context = session.context;
+
+  const fs::path file = fs::is_directory(args.result) ? fs::path(args.result) / "result.json" : fs::path(args.result);
+  const cuboids::Completion result = report::read_cuboids_result(file);
+  const cuboids::Truth truth = read_truth(args);
+  report::CuboidsEvaluation e;
+  e.result_path = args.result;
+  e.truth_path = args.truth;
+  e.family = truth.family;
+  Summary summary;
+  {
+    const Stage stage(context, summary, "evaluate");
+    e.scores = cuboids::evaluate(result, truth, args.options, context);
+  }
+  context.check();
+  const std::string json = report::evaluation_json(e);
+  io::add_to_result(file.parent_path(), "evaluation.json", json);
+  session.progress.clear();
+  session.progress.warn(context.take_warnings());
+  if (args.common.json) {
+    fmt::print("{}", json);
+  } else if (!args.common.quiet) {
+    fmt::print("{}", report::evaluation_table(e));
+  }
+  return kSolved;
+}
+
+}  // namespace
+
+Command add_evaluate_cuboids(CLI::App& evaluate) {
+  auto args = std::make_shared<Arguments>();
+  CLI::App* sub =
+      evaluate.add_subcommand("cuboids", "Measure a result of unseen cuboids, and write evaluation.json into it");
+  sub->add_option("OUT", args->result, "the folder that unseen cuboids wrote");
+  sub->add_option("--truth", args->truth, "truth.json of unseen synth cuboids, or measured sizes and contacts")
+      ->type_name("TRUTH");
+  sub->add_option("--frame", args->frame, "the truth has no poses: the frame's folder, with label.png")->type_name("DIR");
+  add_flags(*sub, args->table(), args->given);
+  add_flags(*sub, args->common);
+  sub->footer(
+      "Examples:\n  unseen evaluate cuboids OUT --truth chair/view-0/truth.json\n"
+      "  unseen evaluate cuboids OUT --truth sizes.json --frame shelf_07 --hidden W:263,W:199");
+  return {sub, [args] { return run(*args); }};
+}
+
+}  // namespace unseen::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace unseen::io {
+
+/// Writes a 16-bit grey PNG, row by row. Throws InputError (path, reason) if the file cannot be written.
+void write_grey_png(const std::filesystem::path& path, int width, int height, std::span<const std::uint16_t> pixels);
+
+/// The same in 8 bits and red, green, blue.
+void write_color_png(const std::filesystem::path& path, int width, int height,
+                     std::span<const std::array<std::uint8_t, 3>> pixels);
+
+/// A picture (sRGB, row by row) as the bytes of a JPEG file; quality in 0…100.
+std::string jpeg_of(const std::vector<std::array<std::uint8_t, 3>>& colors, int width, int height, int quality = 85);
+
+}  // namespace unseen::io

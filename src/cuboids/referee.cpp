@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/referee.h"
+
+#include <stdexcept>
+
+#ifdef UNSEEN_HAS_MUJOCO
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <memory>
+#include <numeric>
+#include <string>
+
+#include "cuboids/synth_builder.h"
+#endif
+
+namespace unseen::cuboids {
+
+#ifndef UNSEEN_HAS_MUJOCO
+
+bool has_referee() { return false; }
+std::vector<double> simulate(const RefereeScene&, const Vec3&, double, Context&) {
+  throw std::logic_error("built without MuJoCo");
+}
+
+#else
+
+namespace {
+
+constexpr double kStep = 1e-3, kGravity = 9.81;
+constexpr double kSlab = 0.02;  // m, thickness of a support that has a lower side
+
+
+/// The rigid body that each box belongs to: the lowest index of those fixed together; −1 = a support.
+std::vector<int> bodies_of(const RefereeScene& scene) {
+  std::vector<int> body(scene.boxes.size());
+  std::iota(body.begin(), body.end(), 0);
+  for (const auto& [a, b] : scene.fixed) {
+    const int first = a < 0 ? -1 : body[a], second = b < 0 ? -1 : body[b];
+    for (int& of : body)
+      if (of == first || of == second) of = std::min(first, second);
+  }
+  return body;
+}
+
+std::string quaternion_text(const Mat3& rotation) {
+  const Eigen::Quaterniond q(rotation);
+  return fmt::format("{} {} {} {}", q.w(), q.x(), q.y(), q.z());
+}
+
+std::string vector_text(const Vec3& v) {
+  return fmt::format("{} {} {}", v.x(), v.y(), v.z());
+}
+
+/// Axes whose third is `normal`.
+Mat3 upright_on(const Vec3& normal) {
+  Mat3 axes;
+  axes.col(0) = any_orthogonal(normal);
+  axes.col(1) = normal.cross(axes.col(0));
+  axes.col(2) = normal;
+  return axes;
+}
+
+/// A half space; but a desk that stands above the ground has a lower side, with things below.
+std::string support_text(const Support& support, bool is_ground) {
+  const Vec3& normal = support.plane.normal;
+  const bool has_lower_side = !is_ground && normal.z() > 0.9 && support.outline.size() > 2;
+  if (!has_lower_side)
+    return fmt::format("<geom type=\"plane\" size=\"0 0 1\" pos=\"{}\" quat=\"{}\"/>",
+                       vector_text(support.plane.offset * normal),
+                       quaternion_text(upright_on(normal)));
+  Mat3 axes;
+  axes.col(0) = (support.outline[1] - support.outline[0]).normalized();
+  axes.col(1) = normal.cross(axes.col(0));
+  axes.col(2) = normal;
+  Eigen::AlignedBox3d reach;
+  for (const Vec3& corner : support.outline) reach.extend(axes.transpose() * corner);
+  Vec3 center = reach.center(), half = reach.sizes() / 2;
+  center.z() = support.plane.offset - kSlab / 2;
+  half.z() = kSlab / 2;
+  return fmt::format("<geom type=\"box\" size=\"{}\" pos=\"{}\" quat=\"{}\"/>", vector_text(half),
+                     vector_text(axes * center), quaternion_text(axes));
+}
+
+/// Bodies keep the world's axes and origin, so that a geom's place in its body is its place in the world at the start.
+std::string model_text(const RefereeScene& scene, const std::vector<int>& body, const Vec3& down) {
+  std::string text;
+  auto out = std::back_inserter(text);
+  const std::size_t points = 24 * (scene.boxes.size() + 1);  // MuJoCo's memory grows with the square of this
+  fmt::format_to(out,
+                 "<mujoco><size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>"
+                 "<option timestep=\"{}\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\" "
+                 "gravity=\"{}\"/><default><geom friction=\"{} 0.005 0.0001\" solref=\"0.004 1\"/></default><worldbody>",
+                 points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kStep, vector_text(kGravity * down), scene.friction);
+  for (std::size_t i = 0; i < scene.supports.size(); ++i) text += support_text(scene.supports[i], i == 0);
+  const auto add_boxes = [&](int of) {
+    for (std::size_t i = 0; i < scene.boxes.size(); ++i)
+      if (body[i] == of)
+        fmt::format_to(out, "<geom name=\"box{}\" type=\"box\" size=\"{}\" pos=\"{}\" quat=\"{}\" mass=\"{}\"/>", i,
+                       vector_text(scene.boxes[i].half_size), vector_text(scene.boxes[i].center),
+                       quaternion_text(scene.boxes[i].axes), scene.masses[i]);
+  };
+  add_boxes(-1);
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    if (body[i] != static_cast<int>(i)) continue;
+    text += "<body><freejoint/>";
+    add_boxes(body[i]);
+    text += "</body>";
+  }
+  return text + "</worldbody></mujoco>";
+}
+
+using Model = std::unique_ptr<mjModel, decltype(&mj_deleteModel)>;
+using State = std::unique_ptr<mjData, decltype(&mj_deleteData)>;
+
+Model load(const std::string& text) {
+  constexpr const char* kName = "scene.xml";
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), kName, static_cast<int>(text.size()));
+  const int at = mj_findFileVFS(files.get(), kName);
+  std::memcpy(files->filedata[at], text.data(), text.size());
+  char error[500] = "";
+  Model model(mj_loadXML(kName, files.get(), error, sizeof error), mj_deleteModel);
+  mj_deleteVFS(files.get());
+  if (!model) throw std::logic_error(std::string("MuJoCo: ") + error);
+  return model;
+}
+
+OrientedBox place_of(const mjModel* model, const mjData* data, const RefereeScene& scene, std::size_t i) {
+  const int geom = mj_name2id(model, mjOBJ_GEOM, fmt::format("box{}", i).c_str());
+  OrientedBox box = scene.boxes[i];
+  for (int r = 0; r < 3; ++r) {
+    box.center[r] = data->geom_xpos[3 * geom + r];
+    for (int c = 0; c < 3; ++c) box.axes(r, c) = data->geom_xmat[9 * geom + 3 * r + c];
+  }
+  return box;
+}
+
+}  // namespace
+
+bool has_referee() { return true; }
+
+std::vector<double> simulate(const RefereeScene& scene, const Vec3& down, double seconds, Context& context) {
+  const Model model = load(model_text(scene, bodies_of(scene), down));
+  const State data(mj_makeData(model.get()), mj_deleteData);
+  while (data->time < seconds) {
+    context.check();
+    mj_step(model.get(), data.get());
+  }
+  mj_kinematics(model.get(), data.get());
+  std::vector<double> moved;
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    const auto from = corners_of(scene.boxes[i]), to = corners_of(place_of(model.get(), data.get(), scene, i));
+    double farthest = 0;
+    for (int k = 0; k < 8; ++k) farthest = std::max(farthest, (to[k] - from[k]).norm());
+    moved.push_back(farthest / (2.0 * scene.boxes[i].half_size.maxCoeff()));
+  }
+  return moved;
+}
+
+#endif
+
+}  // namespace unseen::cuboids

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <opencv2/imgcodecs.hpp>
+
+#include "perception_scenes.h"
+
+namespace unseen::cuboids::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A frame of mOSD beside the project: Kinect, depth in millimetres.
+RgbdFrame load(const fs::path& folder) {
+  const cv::Mat depth = cv::imread((folder / "depth.png").string(), cv::IMREAD_UNCHANGED), color = cv::imread((folder / "color.png").string());
+  RgbdFrame frame;
+  frame.name = folder.filename().string();
+  frame.camera = {525, 525, 319.5, 239.5, depth.cols, depth.rows};
+  for (int y = 0; y < depth.rows; ++y)
+    for (int x = 0; x < depth.cols; ++x) {
+      frame.depth.push_back(0.001f * static_cast<float>(depth.at<std::uint16_t>(y, x)));
+      const cv::Vec3b c = color.at<cv::Vec3b>(y, x);
+      frame.color.push_back({c[2], c[1], c[0]});
+    }
+  return frame;
+}
+
+TEST(MeasuredFrames, OneBoxForEachVisiblePart) {
+  const fs::path data = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/cuboids";
+  if (!fs::exists(data)) GTEST_SKIP() << "the shared frames are not there";
+  const std::map<std::string, std::size_t> parts{{"mosd_learn7", 2},  {"mosd_learn18", 3}, {"mosd_learn19", 2}, {"mosd_learn20", 2},
+                                                 {"mosd_learn22", 3}, {"mosd_learn29", 3}, {"mosd_test3", 2}};
+  for (const auto& [name, count] : parts) {
+    if (!fs::exists(data / name / "depth.png")) GTEST_SKIP() << name << " is not there";
+    const Perceived p = perceive(load(data / name));
+    EXPECT_EQ(p.cuboids.size(), count) << name;
+    for (const Cuboid& cuboid : p.cuboids) EXPECT_GT(cuboid.box.center.z() - cuboid.box.half_size.z(), -0.002) << name;
+    if (name == "mosd_learn7") {  // the carton in front: 244 × 155 mm of it face the camera
+      const OrientedBox& box = nearest(p.cuboids, {-0.1, 0.6, 0.08}).box;
+      EXPECT_NEAR(2.0 * box.half_size.x(), 0.244, 0.008);
+      EXPECT_NEAR(2.0 * box.half_size.z(), 0.155, 0.008);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace unseen::cuboids::test

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <chrono>
+
+#include "perception_scenes.h"
+#include "unseen/core/error.h"
+
+namespace unseen::cuboids::test {
+namespace {
+
+TEST(Supports, GroundLiesWithinItsStandardError) {
+  Scene scene;
+  scene.boxes = {upright(0.05, 0.8, 0, {0.1, 0.1, 0.1}, 20)};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const RgbdFrame frame = render(scene, seed);
+    Context context;
+    const Observation seen = observe(frame, {}, context);
+    ASSERT_EQ(seen.supports.size(), 1u);
+    EXPECT_EQ(seen.supports[0].kind, SupportKind::ground);
+    EXPECT_NEAR(seen.supports[0].plane.offset, 0.0, 1e-9);
+    // 1/z = s·ray with noise of the same σ everywhere: covariance of s is σ²(Σ ray rayᵀ)⁻¹; at most 15000 rays are used.
+    Mat3 normal_matrix = Mat3::Zero();
+    double count = 0;
+    for (std::size_t i = 0; i < seen.points.size(); ++i) {
+      if (seen.support_of_point[i] != 0) continue;
+      const int pixel = seen.pixel_of_point[i];
+      const Vec3 ray = frame.camera.unproject(pixel % scene.width, pixel / scene.width, 1.0);
+      normal_matrix += ray * ray.transpose();
+      ++count;
+    }
+    const Mat3 covariance = scene.noise * scene.noise * (count / 10000.0) * normal_matrix.inverse();
+    const RigidTransform T = camera_of(scene);
+    const Vec3 s = -T.rotation.row(2).transpose() / scene.height;
+    const Vec3 gradient = -s / std::pow(s.norm(), 3);
+    const double height_error = std::sqrt(gradient.dot(covariance * gradient));
+    EXPECT_LT(height_error, 1e-3);
+    EXPECT_NEAR(seen.T_world_camera.translation.z(), scene.height, 4.0 * height_error);
+    const double tilt = line_angle(seen.T_world_camera.rotation.row(2).transpose(), T.rotation.row(2).transpose());
+    EXPECT_LT(tilt, 4.0 * std::sqrt(covariance.trace()) / s.norm());
+    EXPECT_NEAR(seen.T_world_camera.translation.x(), 0.0, 1e-9);
+    EXPECT_NEAR(seen.T_world_camera.translation.y(), 0.0, 1e-9);
+    EXPECT_TRUE(seen.T_world_camera.is_rigid(1e-9));
+  }
+}
+
+TEST(Supports, LeaveTheLowestSliceOfThinThings) {
+  Scene scene;
+  scene.boxes = {upright(0.0, 0.7, 0, {0.2, 0.15, 0.012}, 10)};
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.cuboids.size(), 1u);
+  EXPECT_NEAR(2.0 * p.fitted[0].box.half_size.z(), 0.012, 0.002);
+  EXPECT_LT(size_error(p.fitted[0].box, scene.boxes[0]), 0.006);
+}
+
+TEST(Supports, GivenOnesAreTaken) {
+  Scene scene;
+  scene.boxes = {upright(0.0, 0.8, 0, {0.1, 0.1, 0.1}, 0)};
+  RgbdFrame frame = render(scene);
+  const RigidTransform T = camera_of(scene);
+  frame.supports = {{{T.rotation.row(2).transpose(), -scene.height}, "ground"}};
+  const Perceived p = perceive(frame);
+  EXPECT_LT((p.seen.T_world_camera.rotation - T.rotation).norm(), 1e-9);
+  EXPECT_LT((p.seen.T_world_camera.translation - T.translation).norm(), 1e-9);
+  EXPECT_EQ(p.cuboids.size(), 1u);
+  frame.supports[0].kind = "sofa";
+  EXPECT_THROW(perceive(frame), InputError);
+}
+
+TEST(Supports, AWallBehindTheThingsIsOne) {
+  Scene scene;
+  scene.pitch = radians(20.0);
+  scene.boxes = {upright(0.0, 0.9, 0, {0.2, 0.1, 0.15}, 0), upright(0.0, 1.55, 0, {4.0, 0.1, 3.0}, 0)};
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.seen.supports.size(), 2u);
+  EXPECT_EQ(p.seen.supports[1].kind, SupportKind::wall);
+  EXPECT_NEAR(p.seen.supports[1].plane.signed_distance(Vec3(0, 1.5, 0.3)), 0.0, 0.003);
+  EXPECT_LT(p.seen.supports[1].plane.normal.y(), -0.999);
+  EXPECT_EQ(p.cuboids.size(), 1u);
+}
+
+TEST(Boxes, RecoverSizesAndYaw) {
+  for (const double yaw : {-40.0, 5.0, 25.0, 70.0}) {
+    Scene scene;
+    scene.boxes = {upright(0.03, 0.75, 0, {0.2, 0.12, 0.15}, yaw)};
+    const Perceived p = perceive(render(scene));
+    ASSERT_EQ(p.fitted.size(), 1u) << yaw;
+    EXPECT_LT(turn_between(p.fitted[0].box, scene.boxes[0]), 1.0) << yaw;
+    EXPECT_LT(size_error(p.fitted[0].box, scene.boxes[0]), 0.005) << yaw;
+    EXPECT_LT((p.fitted[0].box.center - scene.boxes[0].center).norm(), 0.004) << yaw;
+  }
+}
+
+TEST(Boxes, StackedOnesAreSeparated) {
+  Scene scene;
+  scene.boxes = {upright(0.0, 0.75, 0, {0.26, 0.2, 0.06}, 5), upright(0.01, 0.76, 0.06, {0.15, 0.12, 0.07}, 40)};
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.fitted.size(), 2u);
+  for (const OrientedBox& truth : scene.boxes) {
+    const OrientedBox& box = nearest(p.fitted, truth.center).box;
+    EXPECT_LT(size_error(box, truth), 0.008);
+    EXPECT_LT(turn_between(box, truth), 1.5);
+  }
+}
+
+TEST(Boxes, OneSplitByAnOccluderGivesTwoPartsOfOneTurn) {
+  Scene scene;
+  scene.boxes = {upright(0.0, 0.9, 0, {0.4, 0.1, 0.1}, 8), upright(0.0, 0.6, 0, {0.1, 0.05, 0.3}, 8)};
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.fitted.size(), 3u);
+  const OrientedBox &left = nearest(p.fitted, {-0.13, 0.88, 0.05}).box, &right = nearest(p.fitted, {0.13, 0.92, 0.05}).box;
+  EXPECT_LT(turn_between(left, right), 1.5);
+  EXPECT_LT(turn_between(left, scene.boxes[0]), 1.5);
+  EXPECT_NEAR(left.center.z() + left.half_size.z(), right.center.z() + right.half_size.z(), 0.002);
+  EXPECT_LT(left.center.x(), right.center.x());
+}
+
+TEST(Boxes, WhatIsHiddenIsNotGuessed) {
+  Scene scene;  // only the upper part of the box behind shows
+  scene.boxes = {upright(0.0, 0.62, 0, {0.25, 0.06, 0.15}, 0), upright(0.0, 0.8, 0, {0.1, 0.08, 0.2}, 0)};
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.fitted.size(), 2u);
+  const OrientedBox& box = nearest(p.fitted, {0, 0.8, 0.15}).box;
+  EXPECT_NEAR(box.center.z() + box.half_size.z(), 0.2, 0.003);
+  EXPECT_GT(box.center.z() - box.half_size.z(), 0.03);
+}
+
+TEST(Boxes, ASlantedOneGetsItsOwnAxes) {
+  Scene scene;
+  OrientedBox plank = upright(0, 0, 0, {0.2, 0.3, 0.04}, 0);
+  plank.axes = Eigen::AngleAxisd(radians(30.0), Vec3::UnitX()).toRotationMatrix();
+  plank.center = Vec3(0.0, 0.8, 0.12);
+  scene.boxes = {plank};
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.fitted.size(), 1u);
+  EXPECT_LT(degrees(line_angle(p.fitted[0].box.axes.col(2), plank.axes.col(2))), 1.0);
+  EXPECT_LT(size_error(p.fitted[0].box, plank), 0.01);
+}
+
+TEST(Boxes, AnLShapedThingBecomesTwoSlabsOutOfFreeSpace) {
+  Scene scene;
+  scene.boxes = {upright(-0.05, 0.8, 0, {0.1, 0.1, 0.2}, 0), upright(0.05, 0.8, 0, {0.1, 0.1, 0.05}, 0)};
+  RgbdFrame frame = render(scene);
+  frame.masks.assign(frame.depth.size(), 0);
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  for (std::size_t i = 0; i < seen.points.size(); ++i)
+    if (seen.support_of_point[i] < 0) frame.masks[seen.pixel_of_point[i]] = 3;
+  frame.densities["3"] = 700;
+  const Perceived p = perceive(frame);
+  ASSERT_EQ(p.parts.size(), 1u);
+  ASSERT_EQ(p.fitted.size(), 2u);
+  for (const Cuboid& cuboid : p.fitted) {
+    EXPECT_EQ(cuboid.label, "3");
+    EXPECT_EQ(cuboid.density, 700);
+  }
+  for (const Cuboid& cuboid : p.fitted) EXPECT_LT(cuboid.box.volume(), 0.1 * 0.1 * 0.2 * 1.2);
+}
+
+TEST(Objects, StrokesPartWhatTouches) {
+  Scene scene;  // two boxes side by side, flush in front and above: only colour tells them apart
+  scene.boxes = {upright(-0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0), upright(0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0)};
+  RgbdFrame frame = render(scene);
+  EXPECT_EQ(perceive(frame).fitted.size(), 1u);
+  const RigidTransform T = camera_of(scene).inverse();
+  for (const double x : {-0.06, 0.06}) {
+    Stroke stroke{x < 0 ? "left" : "right", {}};
+    for (const double s : {-0.04, 0.0, 0.04}) stroke.points.push_back(frame.camera.project(T * Vec3(x + s, 0.7, 0.05)));
+    for (const double s : {0.04, 0.0, -0.04}) stroke.points.push_back(frame.camera.project(T * Vec3(x + s, 0.75, 0.1)));
+    frame.strokes.push_back(stroke);
+  }
+  const Perceived p = perceive(frame);
+  ASSERT_EQ(p.fitted.size(), 2u);
+  for (std::size_t b = 0; b < 2; ++b) {
+    const Cuboid& cuboid = nearest(p.fitted, scene.boxes[b].center);
+    EXPECT_EQ(cuboid.label, b == 0 ? "left" : "right");
+    EXPECT_LT(size_error(cuboid.box, scene.boxes[b]), 0.012);
+  }
+}
+
+TEST(ImageEdges, WinBackWhatTheSensorDropped) {
+  Scene scene;
+  scene.dropout = 5;
+  scene.boxes = {upright(-0.15, 0.75, 0, {0.2, 0.12, 0.15}, 15), upright(0.15, 0.75, 0, {0.1, 0.15, 0.12}, 30)};
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.fitted.size(), 2u);
+  double before = 0, after = 0;
+  for (const OrientedBox& truth : scene.boxes) {
+    before = std::max(before, size_error(nearest(p.fitted, truth.center).box, truth));
+    after = std::max(after, size_error(nearest(p.cuboids, truth.center).box, truth));
+  }
+  EXPECT_GT(before, 0.006);
+  EXPECT_LT(after, 0.005);
+  Options options;
+  options.image_edges = false;
+  const Perceived off = perceive(render(scene), options);
+  EXPECT_EQ(off.cuboids[0].box.half_size, off.fitted[0].box.half_size);
+}
+
+}  // namespace
+}  // namespace unseen::cuboids::test

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cuboids/referee.h"
+#include "unseen/cuboids/synth.h"
+
+namespace unseen::cuboids {
+namespace {
+
+const Vec3 kDown(0, 0, -1);
+
+SynthOptions scene_of(const std::string& family) {
+  SynthOptions options;
+  options.scene = family;
+  options.view = 0;
+  if (family == "running-bond") options.boxes = 9;
+  return options;
+}
+
+RefereeScene referee_scene(const Truth& truth) {
+  RefereeScene scene;
+  scene.supports = truth.supports;
+  for (const TrueCuboid& cuboid : truth.cuboids) {
+    scene.boxes.push_back(*cuboid.box);
+    scene.masses.push_back(cuboid.density * cuboid.box->volume());
+  }
+  const int first = static_cast<int>(truth.supports.size());
+  for (const Contact& contact : truth.contacts)
+    if (contact.kind == ContactKind::fixed)
+      scene.fixed.emplace_back(contact.a < first ? -1 : contact.a - first, contact.b - first);
+  return scene;
+}
+
+Truth truth_of(const SynthOptions& options) {
+  Context context;
+  return make_scene(options, context).views.front().truth;
+}
+
+double farthest(const RefereeScene& scene, const Vec3& down, double seconds) {
+  Context context;
+  const auto moved = simulate(scene, down, seconds, context);
+  return *std::max_element(moved.begin(), moved.end());
+}
+
+class SynthPhysics : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    if (!has_referee()) GTEST_SKIP() << "built without MuJoCo";
+  }
+};
+
+TEST_P(SynthPhysics, StandsOrFallsAsItsTruthSays) {
+  const Truth truth = truth_of(scene_of(GetParam()));
+  const double moved = farthest(referee_scene(truth), kDown, 2.0);
+  if (truth.stands)
+    EXPECT_LT(moved, 0.02);
+  else
+    EXPECT_GT(moved, 0.2);
+}
+
+TEST_P(SynthPhysics, StandsWithAMarginOfTenPercent) {
+  const Truth truth = truth_of(scene_of(GetParam()));
+  if (!truth.stands) GTEST_SKIP() << "falls anyway";
+  const RefereeScene scene = referee_scene(truth);
+  for (int i = 0; i < 2; ++i) {
+    const double angle = radians(20.0 + 135.0 * i);
+    EXPECT_LT(farthest(scene, kDown + 0.1 * Vec3(std::cos(angle), std::sin(angle), 0), 0.7), 0.05) << degrees(angle);
+  }
+}
+
+TEST_P(SynthPhysics, NoFixedContactIsTooMany) {
+  const RefereeScene scene = referee_scene(truth_of(scene_of(GetParam())));
+  // In large scenes the joints of one table and one chair will do.
+  const std::size_t count = scene.boxes.size() > 12 ? std::min<std::size_t>(scene.fixed.size(), 3) : scene.fixed.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    RefereeScene without = scene;
+    without.fixed.erase(without.fixed.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_GT(farthest(without, kDown, 0.7), 0.1) << scene.fixed[i].first << " " << scene.fixed[i].second;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, SynthPhysics, testing::ValuesIn(synth_families()), [](const auto& family) {
+  std::string name = family.param;
+  std::erase(name, '-');
+  return name;
+});
+
+}  // namespace
+}  // namespace unseen::cuboids
