@@ -12,7 +12,7 @@
 #include "unseen/core/error.h"
 #include "unseen/io/mesh.h"
 #include "unseen/io/points.h"
-#include "unseen/io/write_image.h"
+#include "unseen/io/write_png.h"
 #include "unseen/io/write_points.h"
 #include "unseen/report/cuboids_applications.h"
 #include "write_text.h"
