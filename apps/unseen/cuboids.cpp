@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "cuboids_applications.h"
 #include "cuboids_check.h"
 #include "session.h"
 #include "unseen/core/error.h"
@@ -36,6 +37,7 @@ struct Arguments {
   bool no_report = false;
   GivenOptions given;
   CuboidsOptions options;
+  ApplicationFlags applications;
 };
 
 std::string plural(std::size_t count, const std::string& one, const std::string& many) {
@@ -111,6 +113,7 @@ int run(Arguments& args) {
   const cuboids::Completion c = cuboids::complete_cuboids(frame, args.options.method, context);
   if (c.summary.status == Status::cancelled) throw Cancelled();
   write_files(c, frame, args, table, out, context);
+  run_applications(args.applications, frame, c, out, context);
   context.check();
   session.progress.warn(c.summary.warnings);
   session.progress.warn(out.commit());
@@ -157,6 +160,7 @@ Command add_cuboids(CLI::App& app, const std::string& shell_command) {
          "--mu", [&given = args->given](const std::string& text) { given.emplace_back("friction", text); },
          "the same as --friction")
       ->type_name("X");
+  add_flags(*sub, args->applications);
   sub->add_option("--check", args->check.assembly, "only say whether an assembly of blocks stands; exit code 4 if not")
       ->type_name("ASSEMBLY.json");
   sub->add_option("--up", args->check.up, "with --check: the direction that points up (default 0,0,1)")

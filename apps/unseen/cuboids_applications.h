@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "unseen/core/context.h"
+#include "unseen/core/rgbd_frame.h"
+#include "unseen/cuboids/types.h"
+#include "unseen/io/output_folder.h"
+
+namespace unseen::cli {
+
+/// What is to be made of completed cuboids; empty = nothing.
+struct ApplicationFlags {
+  std::string complete;     ///< MODEL: a good scan of the same kind of object
+  std::string retrieve;     ///< DIR: models to choose from
+  std::vector<int> object;  ///< ids of the cuboids to find a model for; empty = the largest object
+  std::string edit;         ///< EDITS.json
+};
+void add_flags(CLI::App& app, ApplicationFlags& flags);
+
+/// Writes completed.ply and completed.json, retrieved.ply and retrieved.json, edited.png, as far as they are asked for.
+/// Throws InputError for files that cannot be used.
+void run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Completion& scene,
+                      io::OutputFolder& out, Context& context);
+
+}  // namespace unseen::cli
