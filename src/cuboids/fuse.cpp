@@ -46,8 +46,8 @@ std::optional<Mat3> aligned_axes(const OrientedBox& a, const OrientedBox& b) {
   return out;
 }
 
-/// The box of which both are visible parts; none if they are not: their seen faces must lie in common planes along two
-/// axes, they are apart along the third, and what lies between them is hidden.
+/// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
+/// are apart along the third, and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
   const bool same_object = !a.label.empty() && a.label == b.label;
   if (!same_object && a.label != b.label) return std::nullopt;
@@ -69,10 +69,8 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
       apart = k;
       continue;
     }
-    // The face that looks to the camera was seen of both.
-    const bool high_seen = axis.dot(view.viewpoint() - a.initial.center) > 0.0;
-    const double difference = high_seen ? first.high - second.high : first.low - second.low;
-    if (std::abs(difference) > 2.0 * tolerance) return std::nullopt;
+    // One end of both lies in one plane; where the other one of the shorter part ends, something hides it.
+    if (std::min(std::abs(first.low - second.low), std::abs(first.high - second.high)) > 2.0 * tolerance) return std::nullopt;
   }
   if (apart < 0) return std::nullopt;
   const OrientedBox whole = box_of(axes, spans);

@@ -116,7 +116,9 @@ std::vector<double> ends_over(const Proposer& p, int upper, int face, int lower,
 void propose_sideways(Proposer& p, int lower, int upper, int mover) {
   const double overlap = p.tolerance(lower, upper);
   const bool support = p.problem.is_support(lower);
-  const auto down = level_face(p.box(upper), -1.0), up = support ? std::nullopt : level_face(p.box(lower), 1.0);
+  const auto down = level_face(p.box(upper), -1.0);
+  std::optional<int> up;
+  if (!support) up = level_face(p.box(lower), 1.0);
   if (!down || (!support && !up)) return;
   for (int face = 0; face < 6; ++face) {
     if (std::abs(face_normal(p.box(mover), face).z()) > 1.0 - kFacesUp || p.room(mover, face) <= 0.0) continue;

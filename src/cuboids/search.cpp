@@ -184,6 +184,11 @@ void keep(Search& s, const Arrangement& now, const std::vector<int>& chosen, dou
   s.best.residual = residual;
 }
 
+void blame(Search& s, const Verdict& verdict) {
+  for (const int c : verdict.certificates)
+    for (int i = 0; i < s.problem.bodies(); ++i) s.blame[i] += !s.known[c].collapse.motion[i].is_zero();
+}
+
 void visit(Search& s, const std::vector<int>& chosen, std::vector<char> closed) {
   ++s.best.nodes;
   s.context.check();
@@ -203,7 +208,7 @@ void visit(Search& s, const std::vector<int>& chosen, std::vector<char> closed) 
   for (const int c : verdict.certificates) {
     branches.push_back(options_of(s, cut_of(s, s.known[c], now, chosen), now, closed));
     if (!branches.back().empty()) continue;
-    for (int i = 0; i < s.problem.bodies(); ++i) s.blame[i] += !s.known[c].collapse.motion[i].is_zero();
+    blame(s, verdict);
     ++s.best.pruned;
     return;
   }
@@ -231,6 +236,7 @@ void visit(Search& s, const std::vector<int>& chosen, std::vector<char> closed) 
       if (s.problem.hypotheses[k].a == h.a && s.problem.hypotheses[k].b == h.b) below[k] = 1;
     visit(s, with(chosen, option.hypothesis), std::move(below));
   }
+  if (!s.found) blame(s, verdict);
 }
 
 /// The body that dead ends speak against most; of equals the lowest.
