@@ -12,6 +12,11 @@ namespace {
 
 constexpr double kFarthest = 3.0;  // m: no face moves farther than this
 
+bool stands(const Problem& problem, const Choice& choice, const Arrangement& arrangement) {
+  const Structure s = structure_of(problem, arrangement, touching_pairs(problem, arrangement), choice.held);
+  return balance(s.bodies, s.contacts).residual < problem.stable_residual;
+}
+
 /// Writes the chosen arrangement into the result.
 void describe(const Problem& problem, const Choice& choice, const Arrangement& arrangement, Completion& result) {
   const std::vector<Touch> touches = touching_pairs(problem, arrangement);
@@ -44,9 +49,9 @@ void describe(const Problem& problem, const Choice& choice, const Arrangement& a
   for (int i = 0; i < problem.bodies(); ++i)
     if (choice.held[i]) result.unsupported.push_back(id(i));
   result.fixed_contacts = static_cast<int>(arrangement.fixed.size());
-  result.extended_volume = arrangement.extended_volume;
+  result.extended_volume = choice.cost.volume;
   result.stability.residual = b.residual;
-  result.stability.stable = b.residual < problem.stable_residual && result.unsupported.empty();
+  result.stability.stable = b.residual < problem.stable_residual;
   if (result.stability.stable) {
     result.stability.margin = margin(structure.bodies, structure.contacts, problem.stable_residual);
     result.stability.friction_needed = friction_needed(structure.bodies, structure.contacts, problem.stable_residual);
@@ -89,12 +94,14 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
           return false;
       return true;
     };
-    choice = search_contacts(problem, admissible, options.time_limit, context);
+    choice = search_contacts(problem, admissible, {options.arrangements, options.time_limit}, context);
     result.search = {choice.nodes, choice.pruned, choice.optimal};
   }
   const Stage stage(context, summary, "refinement");
   Arrangement arrangement = arrange(problem, choice.chosen);
-  close_contacts(problem, touching_pairs(problem, arrangement), arrangement);
+  Arrangement closed = arrangement;
+  close_contacts(problem, touching_pairs(problem, arrangement), closed);
+  if (stands(problem, choice, closed) || !stands(problem, choice, arrangement)) arrangement = std::move(closed);
   lower_residual(problem, choice.held, arrangement, context);
   describe(problem, choice, arrangement, result);
   summary.counts.emplace_back("contacts", result.contacts.size());
@@ -103,7 +110,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     context.warn("no object found on the supports");
   } else if (!choice.optimal) {
     summary.status = Status::time_limit;
-    context.warn("the search ran out of time: the best arrangement found by then is kept (--time-limit)");
+    context.warn("the search ended early: the best arrangement found by then is kept (--arrangements, --time-limit)");
   }
 }
 

@@ -93,12 +93,17 @@ Matching match_cuboids(const Completion& result, const Truth& truth) {
 }
 
 std::vector<int> match_supports(const Completion& result, const Truth& truth) {
+  const bool has_poses = !truth.cuboids.empty() && truth.cuboids.front().box.has_value();
   std::vector<int> matched;
   for (const Support& support : result.supports) {
     int best = -1;
     double least = kSameOffset;
     for (int t = 0; t < static_cast<int>(truth.supports.size()); ++t) {
       const Support& real = truth.supports[t];
+      if (!has_poses) {  // nor have supports: the kind has to do
+        if (best < 0 && real.kind == support.kind) best = t;
+        continue;
+      }
       const double angle = std::acos(std::clamp(support.plane.normal.dot(real.plane.normal), -1.0, 1.0));
       const double apart = std::abs(support.plane.offset - real.plane.offset);
       if (angle < kSameDirection && apart < least) {

@@ -17,6 +17,7 @@ OptionTable describe(Options& o) {
   t.add({"stable_residual", &o.stable_residual, "1", "an arrangement with a smaller residual stands", 1e-9, 1.0, {}});
   t.add({"push", &o.push, "g", "horizontal acceleration that the scene must bear from any side, so that it stands clearly; 0 asks for balance alone", 0.0, 1.0, {}});
   t.add({"image_edges", &o.image_edges, "", "pull visible box edges to edges of the colour image", 0, 1, {}});
+  t.add({"arrangements", &o.arrangements, "", "how many arrangements the search looks at for each part of the scene; the best found by then is kept", 1, 1e9, {}});
   t.add({"time_limit", &o.time_limit, "s", "for the search; the best arrangement found by then is kept", 0.01, 3600.0, {}});
   t.add({"seed", &o.seed, "", "of random choices", 0, 2147483647, {}});
   return t;

@@ -34,12 +34,14 @@ struct Search {
   const Problem& problem;
   const Admissible& admissible;
   Context& context;
+  SearchLimits limits;
   std::chrono::steady_clock::time_point end;
   Arrangement initial, largest;
   std::vector<Touch> initial_touches;
   std::vector<char> inside;  ///< a body: part of what is solved now
   std::vector<char> held;    ///< a body: firm, as it is outside or as nothing can hold it
   std::vector<Certificate> known;
+  int visits = 0;          ///< arrangements looked at for this part
   std::vector<int> blame;  ///< a body: in how many dead ends it was on the move
   Choice best;
   bool found = false;
@@ -101,7 +103,17 @@ struct Verdict {
   bool stands = false;
   double residual = 0;
   std::vector<int> certificates;  ///< indices into Search::known
+  std::vector<int> moving;        ///< bodies that are out of balance most
 };
+
+std::vector<int> most_moving(const Search& s, const Structure& structure, const Balance& b) {
+  double fastest = 0.0;
+  for (const Vec6& motion : b.motion) fastest = std::max(fastest, motion.norm());
+  std::vector<int> out;
+  for (int i = s.problem.supports_count(); i < s.problem.bodies(); ++i)
+    if (!structure.bodies[structure.group[i]].is_static && b.motion[structure.group[i]].norm() > 0.5 * fastest) out.push_back(i);
+  return out;
+}
 
 Verdict judge(Search& s, const Arrangement& now) {
   const std::vector<Touch> touches = touching_pairs(s.problem, now);
@@ -117,6 +129,7 @@ Verdict judge(Search& s, const Arrangement& now) {
     if (forces.empty()) verdict.residual = b.residual;
     verdict.stands = b.residual < s.problem.stable_residual;
     if (!verdict.stands) {
+      verdict.moving = most_moving(s, structure, b);
       for (Collapse& collapse : collapses_of(b, gravity, structure, s.problem, now, touches, s.held)) {
         verdict.certificates.push_back(static_cast<int>(s.known.size()));
         s.known.push_back(certificate_of(s, std::move(collapse)));
@@ -187,12 +200,14 @@ void keep(Search& s, const Arrangement& now, const std::vector<int>& chosen, dou
 void blame(Search& s, const Verdict& verdict) {
   for (const int c : verdict.certificates)
     for (int i = 0; i < s.problem.bodies(); ++i) s.blame[i] += !s.known[c].collapse.motion[i].is_zero();
+  if (verdict.certificates.empty())
+    for (const int i : verdict.moving) ++s.blame[i];
 }
 
 void visit(Search& s, const std::vector<int>& chosen, std::vector<char> closed) {
   ++s.best.nodes;
   s.context.check();
-  if (std::chrono::steady_clock::now() > s.end) {
+  if (s.visits++ >= s.limits.arrangements || std::chrono::steady_clock::now() > s.end) {
     s.best.optimal = false;
     return;
   }
@@ -250,6 +265,46 @@ int most_blamed(const Search& s) {
   return worst;
 }
 
+/// The cheapest open hypothesis that stops a collapse at once and gives an allowed arrangement; −1 if there is none.
+int best_remedy(Search& s, const Certificate& c, const Arrangement& now, const std::vector<int>& chosen,
+                const std::vector<char>& closed) {
+  for (const Option& option : options_of(s, cut_of(s, c, now, chosen), now, closed)) {
+    const Arrangement next = arrange(s.problem, with(chosen, option.hypothesis));
+    if (penetrates(s.problem, next) || !s.admissible(next)) continue;
+    if (proven_residual(c.collapse, s.problem, next, touching_pairs(s.problem, next), s.held) < s.problem.stable_residual)
+      return option.hypothesis;
+  }
+  return -1;
+}
+
+/// A first arrangement that stands, without looking back: every collapse gets its cheapest remedy; a body for which there
+/// is none is held.
+void descend(Search& s, std::vector<char> closed, std::vector<char>& unheld) {
+  std::vector<int> chosen;
+  for (;;) {
+    s.context.check();
+    const Arrangement now = arrange(s.problem, chosen);
+    const Verdict verdict = judge(s, now);
+    if (verdict.stands) return keep(s, now, chosen, verdict.residual);
+    int remedy = -1;
+    for (const int c : verdict.certificates)
+      if (remedy < 0) remedy = best_remedy(s, s.known[c], now, chosen, closed);
+    if (remedy >= 0) {
+      chosen = with(chosen, remedy);
+      const Hypothesis& h = s.problem.hypotheses[remedy];
+      for (std::size_t k = 0; k < closed.size(); ++k)
+        if (s.problem.hypotheses[k].a == h.a && s.problem.hypotheses[k].b == h.b) closed[k] = 1;
+      continue;
+    }
+    blame(s, verdict);
+    const int body = most_blamed(s);
+    if (body < 0) return;
+    unheld[body] = s.held[body] = 1;
+    s.known.clear();
+    s.blame.assign(s.problem.bodies(), 0);
+  }
+}
+
 /// The best choice for some bodies, the others being firm as they are. Bodies that nothing can hold join `unheld`.
 std::vector<int> solve_part(Search& s, const std::vector<int>& part, std::vector<char>& unheld) {
   s.inside.assign(s.problem.bodies(), 0);
@@ -257,18 +312,33 @@ std::vector<int> solve_part(Search& s, const std::vector<int>& part, std::vector
   std::vector<char> closed(s.problem.hypotheses.size(), 0);
   for (std::size_t h = 0; h < closed.size(); ++h)
     closed[h] = !s.inside[s.problem.hypotheses[h].a] && !s.inside[s.problem.hypotheses[h].b];
-  for (;;) {
-    for (int i = s.problem.supports_count(); i < s.problem.bodies(); ++i) s.held[i] = !s.inside[i] || unheld[i];
+  const auto start = [&](const std::vector<char>& firm) {
+    for (int i = s.problem.supports_count(); i < s.problem.bodies(); ++i) s.held[i] = !s.inside[i] || firm[i];
     s.known.clear();
     s.blame.assign(s.problem.bodies(), 0);
     s.found = false;
+    s.visits = 0;
     s.best.cost = kNoCost;
     s.best.chosen.clear();
+  };
+  std::vector<char> greedy(s.problem.bodies(), 0);
+  start(greedy);
+  descend(s, closed, greedy);
+  if (greedy == unheld) {  // nothing had to be held: what is found bounds the search
     visit(s, {}, closed);
-    const int body = s.found || !s.best.optimal ? -1 : most_blamed(s);
-    if (body < 0) return s.best.chosen;
+    return s.best.chosen;
+  }
+  const std::vector<int> fallback = s.best.chosen;
+  for (;;) {
+    start(unheld);
+    visit(s, {}, closed);
+    if (s.found) return s.best.chosen;
+    const int body = s.visits > s.limits.arrangements ? -1 : most_blamed(s);
+    if (body < 0) break;
     unheld[body] = 1;
   }
+  unheld = greedy;
+  return fallback;
 }
 
 /// Parts of the scene: bodies numbered alike are solved together.
@@ -310,10 +380,10 @@ bool cheaper(const Cost& a, const Cost& b) {
   return a.fixed != b.fixed ? a.fixed < b.fixed : a.volume < b.volume - kSameVolume;
 }
 
-Choice search_contacts(const Problem& problem, const Admissible& admissible, double time_limit, Context& context) {
-  const auto limit = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(time_limit));
-  Search s{problem, admissible, context, std::chrono::steady_clock::now() + limit, arrange(problem, {}), largest_arrangement(problem),
-           {}, {}, std::vector<char>(problem.bodies(), 0), {}, {}, {}, false};
+Choice search_contacts(const Problem& problem, const Admissible& admissible, const SearchLimits& limits, Context& context) {
+  const auto time = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(limits.seconds));
+  Search s{problem, admissible, context, limits, std::chrono::steady_clock::now() + time, arrange(problem, {}), largest_arrangement(problem),
+           {}, {}, std::vector<char>(problem.bodies(), 0), {}, 0, {}, {}, false};
   s.initial_touches = touching_pairs(problem, s.initial);
   Parts parts;
   for (int i = 0; i < problem.bodies(); ++i) parts.of.push_back(i);

@@ -28,6 +28,13 @@ struct Choice {
   bool optimal = true;
 };
 
+/// When to be content with the best arrangement found. The number of arrangements, of each part of the scene, makes the
+/// same end on every machine; the time is a last resort.
+struct SearchLimits {
+  int arrangements = 2000;
+  double seconds = 60.0;
+};
+
 /// True if the geometry of an arrangement is allowed (no extension into free space), beyond not penetrating.
 using Admissible = std::function<bool(const Arrangement&)>;
 
@@ -36,6 +43,6 @@ using Admissible = std::function<bool(const Arrangement&)>;
 /// collapse motion, and of the hypotheses that could stop it one must be chosen: a hitting set is searched by branch and
 /// bound, so that few arrangements are ever balanced. Parts of the scene that do not touch are solved apart, the rest of
 /// the scene taken as firm; parts that turn out to need each other are solved together.
-Choice search_contacts(const Problem& problem, const Admissible& admissible, double time_limit, Context& context);
+Choice search_contacts(const Problem& problem, const Admissible& admissible, const SearchLimits& limits, Context& context);
 
 }  // namespace unseen::cuboids

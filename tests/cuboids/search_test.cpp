@@ -38,7 +38,7 @@ bool always(const Arrangement&) { return true; }
 
 Choice search(const Problem& problem) {
   Context context;
-  return search_contacts(problem, always, 60.0, context);
+  return search_contacts(problem, always, {1000000, 60.0}, context);
 }
 
 /// The cheapest of all assignments of at most one hypothesis to each pair.

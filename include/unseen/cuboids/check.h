@@ -34,7 +34,8 @@ struct Check {
 
 /// Rigid-block equilibrium of an exact assembly (thesis Eq. 4.2, 4.3; Whiting et al., "Procedural modeling of
 /// structurally-sound masonry buildings", 2009), with a true friction cone. Stands if the residual is below 1e-6.
-/// Throws InputError for unknown supports and blocks that are not convex or have no volume.
+/// Blocks that are not convex are cut into convex parts. Throws InputError for unknown supports and blocks that are not
+/// closed or have no volume.
 Check check_assembly(const std::vector<Block>& blocks, const CheckOptions& options, Context& context);
 
 }  // namespace unseen::cuboids

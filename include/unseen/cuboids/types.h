@@ -43,14 +43,14 @@ struct Contact {
   int a = -1, b = -1;
   ContactKind kind = ContactKind::touching;
   Vec3 direction = Vec3::UnitZ();  ///< unit, from a to b
-  std::vector<Vec3> points;        ///< 1, 2 or 4 points of the interface (touching)
+  std::vector<Vec3> points;        ///< 1 (point), 2 (edge) or 3 to 8 points of the interface (touching)
   std::vector<Vec3> forces;        ///< N, on b, one a point; empty if fixed
 };
 
 /// How surely it stands.
 struct Stability {
   double residual = 0;         ///< largest over bodies of |force|/weight and |torque|/(weight · half size)
-  bool stable = false;
+  bool stable = false;         ///< all but those that nothing can support, which count as held
   double margin = 0;           ///< largest horizontal acceleration that it bears, in g, worst of 16 directions
   double friction_needed = 0;  ///< smallest μ with which it still stands
 };
