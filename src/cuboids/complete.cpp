@@ -80,7 +80,8 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     problem.supports = result.supports;
     problem.cuboids = result.cuboids;
     problem.tolerance = tolerance;
-    problem.hypotheses = propose_contacts(problem, find_rooms(view, result.cuboids, tolerance, kFarthest));
+    assume_thickness(find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
+    problem.hypotheses = propose_contacts(problem, find_rooms(view, problem.cuboids, tolerance, kFarthest));
     summary.counts.emplace_back("cuboids", result.cuboids.size());
     summary.counts.emplace_back("hypotheses", problem.hypotheses.size());
   }
@@ -98,6 +99,16 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     result.search = {choice.nodes, choice.pruned, choice.optimal};
   }
   const Stage stage(context, summary, "refinement");
+  for (const int h : legs_to_their_plates(problem)) {
+    const auto same_pair = [&](int c) {
+      return problem.hypotheses[c].a == problem.hypotheses[h].a && problem.hypotheses[c].b == problem.hypotheses[h].b;
+    };
+    if (std::any_of(choice.chosen.begin(), choice.chosen.end(), same_pair)) continue;
+    Choice longer = choice;
+    longer.chosen.push_back(h);
+    const Arrangement a = arrange(problem, longer.chosen);
+    if (!penetrates(problem, a) && stands(problem, longer, a)) choice = std::move(longer);
+  }
   Arrangement arrangement = arrange(problem, choice.chosen);
   Arrangement closed = arrangement;
   close_contacts(problem, touching_pairs(problem, arrangement), closed);

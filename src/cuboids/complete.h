@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cuboids/depth_view.h"
+#include "cuboids/hypotheses.h"
 #include "cuboids/problem.h"
 #include "cuboids/search.h"
 #include "unseen/core/context.h"
@@ -22,6 +23,13 @@ std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std
 /// Adds the legs of a plate that are wholly hidden where others of its legs are seen, by mirroring them at the plate's
 /// middle (thesis Section 4.4.1). Returns how many.
 std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);
+
+/// Boxes of which one face only was seen get a thickness: that of their narrower visible side, as far as hidden space goes.
+/// Something covers their top, or that would have shown it.
+void assume_thickness(const Rooms& rooms, Problem& problem);
+
+/// Hypotheses by which legs whose upper end is hidden reach the plate over them.
+std::vector<int> legs_to_their_plates(const Problem& problem);
 
 /// m: how near two faces must be to count as touching, by the noise of the depth there.
 std::vector<double> contact_tolerance(const DepthView& view, const std::vector<Cuboid>& cuboids);

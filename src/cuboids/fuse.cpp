@@ -46,11 +46,23 @@ std::optional<Mat3> aligned_axes(const OrientedBox& a, const OrientedBox& b) {
   return out;
 }
 
+/// The box around two parts of one known object, along the axes of the larger; none if it enters free space.
+std::optional<OrientedBox> joined_object(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
+  const OrientedBox& larger = a.initial.volume() >= b.initial.volume() ? a.initial : b.initial;
+  std::array<Span, 3> spans;
+  for (int k = 0; k < 3; ++k) {
+    const Span first = span_along(a.initial, larger.axes.col(k)), second = span_along(b.initial, larger.axes.col(k));
+    spans[k] = {std::min(first.low, second.low), std::max(first.high, second.high)};
+  }
+  const OrientedBox whole = box_of(larger.axes, spans);
+  return in_hidden_space(view, larger, whole, tolerance) ? std::optional(whole) : std::nullopt;
+}
+
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
 /// are apart along the third, and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
-  const bool same_object = !a.label.empty() && a.label == b.label;
-  if (!same_object && a.label != b.label) return std::nullopt;
+  if (a.label != b.label) return std::nullopt;
+  if (!a.label.empty()) return joined_object(view, a, b, tolerance);
   const auto axes_b = aligned_axes(a.initial, b.initial);
   if (!axes_b) return std::nullopt;
   const double share = static_cast<double>(a.visible_points) / static_cast<double>(a.visible_points + b.visible_points);

@@ -9,6 +9,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFreeShare = 0.05;  // of samples: speckle and edges of the depth image
+constexpr double kUpright = 0.7;     // cosine
 constexpr double kFitOpen = 1.5;     // tolerances
 constexpr int kMaxSamples = 14;      // along one side of a face
 
@@ -48,6 +49,10 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
       while (at < farthest && free_share(view, cuboids[i].initial, face, at + 0.5 * step, tolerance[i]) <= kFreeShare)
         at += step;
       rooms[i][face] = at > 1.5 * step ? at : kFitOpen * step;
+      // Sideways a box grows no longer than its longest side that was seen: else a pole would become a wall.
+      const OrientedBox& box = cuboids[i].initial;
+      if (std::abs(face_normal(box, face).z()) < kUpright)
+        rooms[i][face] = std::min(rooms[i][face], std::max(2.0 * (box.half_size.maxCoeff() - box.half_size[face / 2]), kFitOpen * step));
     }
   return rooms;
 }

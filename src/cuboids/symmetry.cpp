@@ -71,15 +71,27 @@ bool is_hidden(const DepthView& view, const OrientedBox& box) {
   return hidden >= kHiddenShare * all;
 }
 
+/// Plates with the legs that stand under them, where there are enough to believe in legs.
+struct Table {
+  std::size_t plate = 0;
+  std::vector<std::size_t> legs;
+};
+std::vector<Table> tables_of(const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance) {
+  std::vector<Table> out;
+  for (std::size_t plate = 0; plate < cuboids.size(); ++plate) {
+    Table table{plate, {}};
+    for (std::size_t i = 0; i < cuboids.size(); ++i)
+      if (i != plate && is_leg_of(cuboids[i].initial, cuboids[plate].initial, std::max(tolerance[i], tolerance[plate]))) table.legs.push_back(i);
+    if (table.legs.size() >= kEnoughLegs) out.push_back(std::move(table));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance) {
   const std::size_t seen = cuboids.size();
-  for (std::size_t plate = 0; plate < seen; ++plate) {
-    std::vector<std::size_t> legs;
-    for (std::size_t i = 0; i < seen; ++i)
-      if (i != plate && is_leg_of(cuboids[i].initial, cuboids[plate].initial, std::max(tolerance[i], tolerance[plate]))) legs.push_back(i);
-    if (legs.size() < kEnoughLegs) continue;
+  for (const auto& [plate, legs] : tables_of(cuboids, tolerance)) {
     const int up = vertical_axis(cuboids[plate].initial);
     for (const std::size_t leg : legs)
       for (const auto& [first, second] : {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}}) {
@@ -100,6 +112,21 @@ std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids,
       }
   }
   return cuboids.size() - seen;
+}
+
+std::vector<int> legs_to_their_plates(const Problem& problem) {
+  std::vector<int> out;
+  for (const auto& [plate, legs] : tables_of(problem.cuboids, problem.tolerance))
+    for (const std::size_t leg : legs)
+      for (std::size_t h = 0; h < problem.hypotheses.size(); ++h) {
+        const Hypothesis& hypothesis = problem.hypotheses[h];
+        const int a = problem.supports_count() + static_cast<int>(leg), b = problem.supports_count() + static_cast<int>(plate);
+        if (hypothesis.kind == ContactKind::touching && hypothesis.moves.size() == 1 && hypothesis.moves[0].body == a &&
+            hypothesis.a == std::min(a, b) && hypothesis.b == std::max(a, b) &&
+            face_normal(problem.cuboids[leg].initial, hypothesis.moves[0].face).z() > kLevel)
+          out.push_back(static_cast<int>(h));
+      }
+  return out;
 }
 
 }  // namespace unseen::cuboids

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+
+#include "cuboids/complete.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kUnseen = 3.0;   // tolerances: a thinner box was seen from one side only
+constexpr double kUpright = 0.3;  // cosine: such an axis is horizontal
+
+}  // namespace
+
+void assume_thickness(const Rooms& rooms, Problem& problem) {
+  std::vector<ConvexSolid> solids;
+  for (const Cuboid& cuboid : problem.cuboids) solids.push_back(solid_of(cuboid.initial));
+  for (std::size_t i = 0; i < problem.cuboids.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      OrientedBox& box = problem.cuboids[i].initial;
+      const double size = 2.0 * box.half_size[axis];
+      if (std::abs(box.axes(2, axis)) > kUpright || size > kUnseen * problem.tolerance[i]) continue;
+      const int face = rooms[i][2 * axis] > rooms[i][2 * axis + 1] ? 2 * axis : 2 * axis + 1;
+      double length = 2.0 * std::min(box.half_size[(axis + 1) % 3], box.half_size[(axis + 2) % 3]) - size;
+      length = std::min(length, rooms[i][face]);
+      for (std::size_t j = 0; j < solids.size(); ++j)
+        if (const auto gap = i == j ? std::nullopt : reach(box, face, solids[j])) length = std::min(length, *gap);
+      for (const Support& support : problem.supports)
+        if (const auto gap = reach(box, face, support)) length = std::min(length, *gap);
+      if (length <= 0.0) continue;
+      Extension extension{};
+      extension[face] = length;
+      box = extended(box, extension);
+      solids[i] = solid_of(box);
+    }
+}
+
+}  // namespace unseen::cuboids
