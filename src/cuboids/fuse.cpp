@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSameYaw = 10.0;  // deg: what two visible parts of one box may differ by
 
+constexpr double kKnownObject = 0.4;  // share that may be free where a label says that parts are one: boxes only resemble things
 constexpr double kToleranceSigmas = 5.0;
 constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
 
@@ -55,7 +56,7 @@ std::optional<OrientedBox> joined_object(const DepthView& view, const Cuboid& a,
     spans[k] = {std::min(first.low, second.low), std::max(first.high, second.high)};
   }
   const OrientedBox whole = box_of(larger.axes, spans);
-  return in_hidden_space(view, larger, whole, tolerance) ? std::optional(whole) : std::nullopt;
+  return in_hidden_space(view, larger, whole, tolerance, kKnownObject) ? std::optional(whole) : std::nullopt;
 }
 
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they

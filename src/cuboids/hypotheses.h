@@ -25,7 +25,9 @@ std::optional<double> reach(const OrientedBox& box, int face, const Support& oth
 /// the least single move. Pairs that touch already need no hypothesis to touch, only one to be fixed.
 std::vector<Hypothesis> propose_contacts(const Problem& problem, const Rooms& rooms);
 
-/// True if no extended part of the arrangement lies in space that the view proves free.
-bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin);
+inline constexpr double kFreeShare = 0.05;  ///< of samples: speckle and edges of the depth image
+/// True if what a box adds to its initial one lies in space that the view does not prove free, but for a share of it.
+bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin,
+                     double share = kFreeShare);
 
 }  // namespace unseen::cuboids

@@ -8,7 +8,6 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kFreeShare = 0.05;  // of samples: speckle and edges of the depth image
 constexpr double kUpright = 0.7;     // cosine
 constexpr double kFitOpen = 1.5;     // tolerances
 constexpr int kMaxSamples = 14;      // along one side of a face
@@ -57,7 +56,7 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
   return rooms;
 }
 
-bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin) {
+bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin, double share) {
   int free = 0, all = 0;
   std::array<std::vector<double>, 3> grid;
   for (int k = 0; k < 3; ++k) grid[k] = places(box.half_size[k], margin, std::max(margin, box.half_size[k] / 5.0));
@@ -70,7 +69,7 @@ bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const Or
         ++all;
         free += view.at(p) == DepthView::Space::free;
       }
-  return free <= kFreeShare * all;
+  return free <= share * all;
 }
 
 }  // namespace unseen::cuboids

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "unseen/cuboids/options.h"
+#include "unseen/cuboids/synth.h"
 #include "unseen/io/describe.h"
 #include "unseen/planes/options.h"
 #include "unseen/planes/synth.h"
@@ -14,26 +16,25 @@
 namespace unseen {
 namespace {
 
-const std::string kPage = std::string(UNSEEN_SOURCE_DIR) + "/docs/planes.md";
-
-std::string page() {
-  std::ifstream in(kPage);
+std::string page(const std::string& path) {
+  std::ifstream in(path);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
 }
 
 /// Checks, or renews, what stands between <!-- options: NAME --> and <!-- end -->.
-void check_table(const std::string& name, const std::string& table) {
-  std::string text = page();
+void check_table(const std::string& file, const std::string& name, const std::string& table) {
+  const std::string path = std::string(UNSEEN_SOURCE_DIR) + "/docs/" + file;
+  std::string text = page(path);
   const std::string start = "<!-- options: " + name + " -->\n";
   const std::size_t from = text.find(start);
-  ASSERT_NE(from, std::string::npos) << kPage << " lacks the mark " << start;
+  ASSERT_NE(from, std::string::npos) << path << " lacks the mark " << start;
   const std::size_t first = from + start.size(), end = text.find("<!-- end -->", first);
   ASSERT_NE(end, std::string::npos);
   if (std::getenv("UNSEEN_UPDATE_DOCS") != nullptr) {
     text.replace(first, end - first, table);
-    std::ofstream(kPage) << text;
+    std::ofstream(path) << text;
     return;
   }
   EXPECT_EQ(text.substr(first, end - first), table) << "run report_tests with UNSEEN_UPDATE_DOCS=1";
@@ -41,17 +42,27 @@ void check_table(const std::string& name, const std::string& table) {
 
 TEST(Docs, PlanesOptionsAreThoseOfTheProgram) {
   planes::Options options;
-  check_table("planes", markdown(planes::describe(options)));
+  check_table("planes.md", "planes", markdown(planes::describe(options)));
 }
 
 TEST(Docs, ReadOptionsAreThoseOfTheProgram) {
   io::ReadOptions options;
-  check_table("input", markdown(io::describe(options)));
+  check_table("planes.md", "input", markdown(io::describe(options)));
 }
 
 TEST(Docs, SynthOptionsAreThoseOfTheProgram) {
   planes::SynthOptions options;
-  check_table("synth planes", markdown(planes::describe(options)));
+  check_table("planes.md", "synth planes", markdown(planes::describe(options)));
+}
+
+TEST(Docs, CuboidsOptionsAreThoseOfTheProgram) {
+  cuboids::Options options;
+  check_table("cuboids.md", "cuboids", markdown(cuboids::describe(options)));
+}
+
+TEST(Docs, SynthCuboidsOptionsAreThoseOfTheProgram) {
+  cuboids::SynthOptions options;
+  check_table("cuboids.md", "synth cuboids", markdown(cuboids::describe(options)));
 }
 
 }  // namespace
