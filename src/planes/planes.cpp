@@ -94,7 +94,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   VoxelGrid grid;
   {
     Stage stage(context, summary, "voxels");
-    grid = VoxelGrid(summarise(source, 0.5 * result.scale, seen.duplicate, context));
+    grid = VoxelGrid(summarise(source, 0.5 * result.scale, seen.duplicate, context), context);
     check_not_collinear(grid, space, info.name);
     if (!use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());
