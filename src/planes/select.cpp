@@ -118,7 +118,7 @@ OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Ve
 SelectionProblem make_problem(const Patches& patches, const std::vector<int>& members,
                               const std::vector<OrientationFrame>& frames, std::size_t fixed,
                               const AngleSet& angles, const std::vector<Vec3>& locals, double lambda,
-                              double patch_angle, const SelectionProblem& known) {
+                              double patch_angle, const SelectionProblem& known, const Context& context) {
   SelectionProblem p;
   p.lambda = lambda;
   const int rows = static_cast<int>(members.size()), cols = static_cast<int>(frames.size()), old = known.frames();
@@ -139,16 +139,20 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
       orientation_of[k].push_back(static_cast<int>(it - orientations.begin()));
       if (it == orientations.end()) orientations.push_back(n);
     }
-  for (int j = 0; j < rows; ++j)
-    for (int k = 0; k < cols; ++k) {
-      const Candidate c = best_candidate(patches.patches[members[j]], frames[k], locals, patch_angle);
-      p.data(j, k) = c.cost;
-      if (c.local >= 0) p.orientation(j, k) = orientation_of[k][c.local];
-    }
+  p.data.leftCols(old) = known.data;
+  p.orientation.leftCols(old) = known.orientation;
   p.irregularity.topLeftCorner(old, old) = known.irregularity;
-  for (int a = old; a < cols; ++a)
-    for (int b = 0; b < a; ++b)
-      p.irregularity(a, b) = p.irregularity(b, a) = irregularity(frames[a], frames[b], locals, angles);
+  parallel_blocks(context, cols - old, 8, [&](std::size_t begin, std::size_t end) {
+    for (int k = old + static_cast<int>(begin); k < old + static_cast<int>(end); ++k) {
+      for (int j = 0; j < rows; ++j) {
+        const Candidate c = best_candidate(patches.patches[members[j]], frames[k], locals, patch_angle);
+        p.data(j, k) = c.cost;
+        if (c.local >= 0) p.orientation(j, k) = orientation_of[k][c.local];
+      }
+      for (int b = 0; b < k; ++b)
+        p.irregularity(k, b) = p.irregularity(b, k) = irregularity(frames[k], frames[b], locals, angles);
+    }
+  });
   std::vector<int> row_of(patches.patches.size(), -1);
   for (int j = 0; j < rows; ++j) row_of[members[j]] = j;
   for (const auto& [a, b] : patches.neighbours)
@@ -187,11 +191,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       if (!(least < kExplained)) unexplained.push_back(j);
     }
     std::vector<OrientationFrame> frames = s.frames;
-    for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle))
+    for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle, context))
       frames.push_back(std::move(f));
     SelectionProblem problem;
     const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
-      return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem);
+      return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem, context);
     };
     problem = problem_of(frames);
     Labels labels = solve_local(problem, context);
