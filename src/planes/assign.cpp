@@ -85,13 +85,10 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
   reach.use_point_normals = use_point_normals;
   reach.tolerance = cells.tolerance;
   std::vector<int> plane_of_cell(grid.size(), -1);
-  VoxelSet supporting = grid.empty_set();
   update_planes(reach, model);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    for (const int i : model.parts[p].cells) {
-      plane_of_cell[i] = static_cast<int>(p);
-      grid.insert(supporting, i);
-    }
+    for (const int i : model.parts[p].cells) plane_of_cell[i] = static_cast<int>(p);
+  const std::vector<int> plane_of_block = grid.labels_of_blocks(plane_of_cell);
   std::vector<VoxelReach> lists(grid.size());
   parallel_blocks(context, grid.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<Support> near;
@@ -99,10 +96,13 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
     for (std::size_t i = begin; i < end; ++i) {
       met.clear();
       const int around = voxels_within(cells, grid, i, kReach);
-      int last = -1;  // neighbours mostly support the same plane
-      grid.for_neighbours(i, around, supporting, [&](int k) {
+      int last = VoxelGrid::kNone;  // neighbours mostly support the same plane
+      const auto nothing_new = [&](std::uint32_t block) {
+        return plane_of_block[block] == VoxelGrid::kNone || plane_of_block[block] == last;
+      };
+      grid.for_neighbours_unless(i, around, nothing_new, [&](int k) {
         const int p = plane_of_cell[k];
-        if (p == last) return;
+        if (p < 0 || p == last) return;
         last = p;
         if (std::find(met.begin(), met.end(), p) == met.end()) met.push_back(p);
       });
@@ -116,7 +116,9 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
       if (list.size() < 2) continue;
       std::sort(list.begin(), list.end(), [](const ReachedPlane& a, const ReachedPlane& b) { return a.plane < b.plane; });
       near.clear();
-      grid.for_neighbours(i, around, supporting, [&](int k) { near.push_back({plane_of_cell[k], k}); });
+      grid.for_neighbours(i, around, [&](int k) {
+        if (plane_of_cell[k] >= 0) near.push_back({plane_of_cell[k], k});
+      });
       lists[i].side = sides(reach, grid, kClear * reach.tolerance[i], near, list);
     }
   });

@@ -79,11 +79,15 @@ std::vector<std::pair<int, int>> adjacent_regions(const VoxelGrid& grid, const C
                                                   const std::vector<Region>& regions, const std::vector<int>& region_of,
                                                   const Context& context) {
   std::vector<std::vector<int>> beside(regions.size());
+  const std::vector<int> region_of_block = grid.labels_of_blocks(region_of);
   parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
       std::vector<int>& found = beside[r];
+      const auto no_other = [&](std::uint32_t block) {
+        return region_of_block[block] == VoxelGrid::kNone || region_of_block[block] == static_cast<int>(r);
+      };
       for (const int i : regions[r].cells)
-        grid.for_neighbours(i, voxels_within(cells, grid, i), [&](int k) {
+        grid.for_neighbours_unless(i, voxels_within(cells, grid, i), no_other, [&](int k) {
           const int o = region_of[k];
           if (o < 0 || o == static_cast<int>(r)) return;
           if (!found.empty() && found.back() == o) return;
@@ -222,6 +226,7 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     size.push_back(space.is_2d() ? fit.spread_u : fit.spread_u * fit.spread_v);
     for (const int i : regions[r]) region_of[i] = static_cast<int>(r);
   }
+  const std::vector<int> region_of_block = grid.labels_of_blocks(region_of);
   std::vector<int> order(regions.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] < size[b]; });
@@ -233,7 +238,10 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     double allowed = (1.0 - kRimShare + 1e-9) * total;  // points that may be left unexplained
     for (const int i : regions[r]) {
       bool found = false;
-      grid.for_neighbours(i, voxels_within(cells, grid, i, kRimReach), [&](int k) {
+      const auto no_other = [&](std::uint32_t block) {
+        return found || region_of_block[block] == VoxelGrid::kNone || region_of_block[block] == r;
+      };
+      grid.for_neighbours_unless(i, voxels_within(cells, grid, i, kRimReach), no_other, [&](int k) {
         const int o = region_of[k];
         if (found || o < 0 || o == r || size[o] <= size[r]) return;
         found = std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];

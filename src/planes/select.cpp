@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numeric>
 
 #include "planes/arrange.h"
@@ -179,6 +180,9 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     return s;
   }
   std::size_t done = 0;
+  // Bounds only report: those of one round are sought while the next ones choose.
+  const std::launch beside = context.threads == 1 ? std::launch::deferred : std::launch::async;
+  std::vector<std::future<double>> bounds;
   for (const std::vector<int>& round : rounds_by_area(patches)) {
     context.progress(static_cast<double>(done) / patches.patches.size());
     done += round.size();
@@ -211,14 +215,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       problem = std::move(next);
       labels = std::move(again);
     }
-    double bound = 0;
     if (options.solver == "exact") {
       ExactSolution exact = solve_exact(problem, labels, options.time_limit, context);
       labels = std::move(exact.labels);
-      bound = exact.bound;
+      s.bound += exact.bound;
       s.time_limit = s.time_limit || !exact.proven;
-    } else {
-      bound = lower_bound(problem, energy_of(problem, labels).total(), context);
     }
     // What fixed frames cost among themselves was counted in the rounds that chose them.
     const Energy e = energy_of(problem, labels);
@@ -228,7 +229,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     s.after.data += e.data;
     s.after.irregularity += e.irregularity - among_fixed;
     s.after.smoothness += e.smoothness;
-    s.bound += bound - among_fixed;
+    s.bound -= among_fixed;
+    if (options.solver != "exact")
+      bounds.push_back(std::async(beside, [problem = std::move(problem), upper = e.total(), &context] {
+        return lower_bound(problem, upper, context);
+      }));
 
     std::vector<int> kept(frames.size(), -1);
     for (std::size_t k = 0; k < fixed; ++k) kept[k] = static_cast<int>(k);
@@ -243,6 +248,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     }
   }
   give_shared_to_largest(patches, locals, patch_angle, s);
+  for (std::future<double>& bound : bounds) s.bound += bound.get();
   return s;
 }
 

@@ -177,6 +177,16 @@ std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int ri
   return place_of;
 }
 
+std::vector<int> VoxelGrid::labels_of_blocks(const std::vector<int>& label_of_voxel) const {
+  std::vector<int> labels(blocks_.size(), kNone);
+  for (std::size_t i = 0; i < size(); ++i) {
+    int& label = labels[block_of_[i]];
+    if (label_of_voxel[i] == kNone || label_of_voxel[i] == label) continue;
+    label = label == kNone ? label_of_voxel[i] : kSeveral;
+  }
+  return labels;
+}
+
 VoxelSet VoxelGrid::empty_set() const {
   VoxelSet set;
   set.bits_.assign(blocks_.size(), 0);

@@ -90,6 +90,13 @@ class VoxelGrid {
   template <class F>
   void for_neighbours(std::size_t voxel, int reach, const VoxelSet& within, F&& f) const;
 
+  /// The same, passing over the blocks for which skip(block) is true.
+  template <class Skip, class F>
+  void for_neighbours_unless(std::size_t voxel, int reach, Skip&& skip, F&& f) const;
+  static constexpr int kNone = -1, kSeveral = -2;
+  /// Of each block the label that its voxels have, apart from those with kNone.
+  std::vector<int> labels_of_blocks(const std::vector<int>& label_of_voxel) const;
+
   VoxelSet empty_set() const;
   void insert(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] |= bit_of(keys[voxel]); }
   void erase(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] &= ~bit_of(keys[voxel]); }
@@ -182,6 +189,11 @@ void VoxelGrid::for_neighbours(std::size_t voxel, int reach, F&& f) const {
 template <class F>
 void VoxelGrid::for_neighbours(std::size_t voxel, int reach, const VoxelSet& within, F&& f) const {
   visit_blocks(voxel, reach, [&](std::uint32_t b) { return within.bits_[b]; }, f);
+}
+
+template <class Skip, class F>
+void VoxelGrid::for_neighbours_unless(std::size_t voxel, int reach, Skip&& skip, F&& f) const {
+  visit_blocks(voxel, reach, [&](std::uint32_t b) { return skip(b) ? 0 : blocks_[b].mask; }, f);
 }
 
 }  // namespace unseen::planes
