@@ -57,13 +57,17 @@ void parallel_blocks(const Context& context, std::size_t count, std::size_t grai
     for (std::size_t begin = 0; begin < count; begin += grain) guarded(begin, std::min(begin + grain, count));
     return;
   }
-  tbb::task_arena arena(context.threads > 0 ? context.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
+  const auto run = [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, grain),
         [&](const tbb::blocked_range<std::size_t>& range) { guarded(range.begin(), range.end()); },
         tbb::simple_partitioner());
-  });
+  };
+  if (context.threads > 0) {
+    tbb::task_arena(context.threads).execute(run);
+  } else {
+    run();
+  }
 }
 
 }  // namespace unseen

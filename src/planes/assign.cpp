@@ -88,24 +88,38 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
   update_planes(reach, model);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     for (const int i : model.parts[p].cells) plane_of_cell[i] = static_cast<int>(p);
+  const std::vector<int> plane_of_block = grid.labels_of_blocks(plane_of_cell);
   std::vector<VoxelReach> lists(grid.size());
-  parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(context, grid.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<Support> near;
+    std::vector<int> met;
     for (std::size_t i = begin; i < end; ++i) {
-      near.clear();
-      grid.for_neighbours(i, voxels_within(cells, grid, i, kReach), [&](int k) {
-        if (plane_of_cell[k] >= 0) near.push_back({plane_of_cell[k], k});
+      met.clear();
+      const int around = voxels_within(cells, grid, i, kReach);
+      int last = VoxelGrid::kNone;  // neighbours mostly support the same plane
+      const auto nothing_new = [&](std::uint32_t block) {
+        return plane_of_block[block] == VoxelGrid::kNone || plane_of_block[block] == last;
+      };
+      grid.for_neighbours_unless(i, around, nothing_new, [&](int k) {
+        const int p = plane_of_cell[k];
+        if (p < 0 || p == last) return;
+        last = p;
+        if (std::find(met.begin(), met.end(), p) == met.end()) met.push_back(p);
       });
       std::vector<ReachedPlane>& list = lists[i].candidates;
       const Vec3 center = grid.center_of(grid.keys[i]);
       const double farthest = reach.tolerance[i] + 0.87 * grid.edge;
-      for (const auto& [p, voxel] : near) {
-        if (std::any_of(list.begin(), list.end(), [p = p](const ReachedPlane& r) { return r.plane == p; })) continue;
+      for (const int p : met) {
         const Plane& plane = reach.planes[p];
         if (std::abs(plane.signed_distance(center)) <= farthest) list.push_back({p, compare_normal(cells, i, plane.normal)});
       }
+      if (list.size() < 2) continue;
       std::sort(list.begin(), list.end(), [](const ReachedPlane& a, const ReachedPlane& b) { return a.plane < b.plane; });
-      if (list.size() > 1) lists[i].side = sides(reach, grid, kClear * reach.tolerance[i], near, list);
+      near.clear();
+      grid.for_neighbours(i, around, [&](int k) {
+        if (plane_of_cell[k] >= 0) near.push_back({plane_of_cell[k], k});
+      });
+      lists[i].side = sides(reach, grid, kClear * reach.tolerance[i], near, list);
     }
   });
   reach.first.push_back(0);

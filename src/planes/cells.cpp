@@ -77,7 +77,7 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
   for (int l = 1; l < kLevels; ++l) {
     const VoxelGrid& finer = l == 1 ? grid : levels[l - 1].grid;
     std::vector<int> up;
-    levels[l].grid = finer.coarser(up);
+    levels[l].grid = finer.coarser(up, context);
     if (l == 1) {
       levels[l].parent = std::move(up);
     } else {

@@ -20,12 +20,12 @@ void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const
     planes.push_back(model.plane(model.parts[p]));
     for (const int i : model.parts[p].cells) part_of[i] = static_cast<int>(p);
   }
-  std::vector<char> waiting(grid.size(), 0);
+  VoxelSet taken = grid.empty_set(), asleep = grid.empty_set();  // what waits its turn is in neither
+  for (std::size_t i = 0; i < grid.size(); ++i) grid.insert(part_of[i] >= 0 ? taken : asleep, i);
   std::vector<int> frontier;
   const auto wake = [&](int from) {
-    grid.for_neighbours(from, voxels_within(cells, grid, from), [&](int i) {
-      if (part_of[i] >= 0 || waiting[i]) return;
-      waiting[i] = 1;
+    grid.for_neighbours(from, voxels_within(cells, grid, from), asleep, [&](int i) {
+      grid.erase(asleep, i);
       frontier.push_back(i);
     });
   };
@@ -34,20 +34,26 @@ void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const
   for (int round = 0; round < kRounds && !frontier.empty(); ++round) {
     context.check();
     // All voxels of a round see the same state, so that their order does not matter.
+    std::vector<int> joins(frontier.size(), -1);
+    parallel_blocks(context, frontier.size(), 1024, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        const int i = frontier[f];
+        double nearest = kOnPlane * cells.tolerance[i];
+        int& to = joins[f];
+        grid.for_neighbours(i, voxels_within(cells, grid, i), taken, [&](int k) {
+          const int p = part_of[k];
+          if (p == to) return;
+          const double distance = std::abs(planes[p].signed_distance(grid.moments[i].mean));
+          if (distance >= nearest || compare_normal(cells, i, planes[p].normal) == NormalVerdict::contradicts) return;
+          nearest = distance;
+          to = p;
+        });
+      }
+    });
     std::vector<std::pair<int, int>> joined;
-    for (const int i : frontier) {
-      waiting[i] = 0;
-      double nearest = kOnPlane * cells.tolerance[i];
-      int to = -1;
-      grid.for_neighbours(i, voxels_within(cells, grid, i), [&](int k) {
-        const int p = part_of[k];
-        if (p < 0 || p == to) return;
-        const double distance = std::abs(planes[p].signed_distance(grid.moments[i].mean));
-        if (distance >= nearest || compare_normal(cells, i, planes[p].normal) == NormalVerdict::contradicts) return;
-        nearest = distance;
-        to = p;
-      });
-      if (to >= 0) joined.emplace_back(i, to);
+    for (std::size_t f = 0; f < frontier.size(); ++f) {
+      grid.insert(joins[f] < 0 ? asleep : taken, frontier[f]);
+      if (joins[f] >= 0) joined.emplace_back(frontier[f], joins[f]);
     }
     frontier.clear();
     for (const auto& [i, p] : joined) {

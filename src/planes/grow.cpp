@@ -18,6 +18,13 @@ bool is_planar(const Moments& m, const PlaneFit& fit, const Space& space, double
          spread > 0.3 * edge;
 }
 
+/// What growing asks of a voxel, in one cache line.
+struct alignas(64) Cell {
+  Vec3 mean, normal;
+  double reach, tolerance;
+};
+static_assert(sizeof(Cell) == 64);
+
 }  // namespace
 
 CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
@@ -29,31 +36,31 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
                    [&](int a, int b) { return cells.variation[a] < cells.variation[b]; });
 
   const double cos_angle = std::cos(angle);
-  constexpr int kFree = -1, kTaken = -2;
-  std::vector<int> state(grid.size(), kFree);  // or the seed of the region that saw it last
+  std::vector<Cell> cell;
+  cell.reserve(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i)
-    if (cells.normal[i].isZero()) state[i] = kTaken;
+    cell.push_back({grid.moments[i].mean, cells.normal[i], cells.reach[i], cells.tolerance[i]});
+  VoxelSet open = grid.empty_set();  // neither taken by a region nor in the one that grows
+  for (const int i : order) grid.insert(open, i);
   CellSets regions;
   std::size_t visited = 0;
   for (const int seed : order) {
     if ((++visited & 0xfff) == 0) context.progress(static_cast<double>(visited) / order.size());
-    if (state[seed] == kTaken) continue;
+    if (!grid.contains(open, seed)) continue;
     std::vector<int> region = {seed};
     Moments sum = grid.moments[seed];
     Vec3 normal = cells.normal[seed], center = sum.mean;
     double next_fit = 3.0 * std::max<double>(4, 1);  // cells
-    state[seed] = seed;
+    grid.erase(open, seed);
     for (std::size_t at = 0; at < region.size(); ++at) {
-      const int cell = region[at];
-      const Vec3 from = grid.moments[cell].mean;
-      grid.for_neighbours(cell, voxels_within(cells, grid, cell), [&](int i) {
-        if (state[i] == seed || state[i] == kTaken) return;
-        const Vec3& to = grid.moments[i].mean;
-        const double reach = std::max(cells.reach[cell], cells.reach[i]);
-        if ((to - from).squaredNorm() > reach * reach) return;
-        if (std::abs(cells.normal[i].dot(normal)) < cos_angle) return;
-        if (std::abs(normal.dot(to - center)) > cells.tolerance[i]) return;
-        state[i] = seed;
+      const Cell& from = cell[region[at]];
+      grid.for_neighbours(region[at], voxels_within(cells, grid, region[at]), open, [&](int i) {
+        const Cell& to = cell[i];
+        const double reach = std::max(from.reach, to.reach);
+        if ((to.mean - from.mean).squaredNorm() > reach * reach) return;
+        if (std::abs(to.normal.dot(normal)) < cos_angle) return;
+        if (std::abs(normal.dot(to.mean - center)) > to.tolerance) return;
+        grid.erase(open, i);
         region.push_back(i);
         sum += grid.moments[i];
       });
@@ -69,14 +76,16 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
     const PlaneFit fit = fit_plane(sum, space);
     std::vector<int> kept;
     Moments rest;
-    for (const int i : region)
-      if (std::abs(fit.normal.dot(grid.moments[i].mean - sum.mean)) <= cells.tolerance[i] &&
-          std::abs(cells.normal[i].dot(fit.normal)) >= cos_angle) {
+    for (const int i : region) {
+      grid.insert(open, i);
+      if (std::abs(fit.normal.dot(cell[i].mean - sum.mean)) <= cell[i].tolerance &&
+          std::abs(cell[i].normal.dot(fit.normal)) >= cos_angle) {
         kept.push_back(i);
         rest += grid.moments[i];
       }
+    }
     if (kept.empty() || !is_planar(rest, fit_plane(rest, space), space, grid.edge)) continue;
-    for (const int i : kept) state[i] = kTaken;
+    for (const int i : kept) grid.erase(open, i);
     std::sort(kept.begin(), kept.end());
     regions.push_back(std::move(kept));
   }

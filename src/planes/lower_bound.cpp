@@ -15,21 +15,25 @@ constexpr std::size_t kWork = 8'000'000;  // candidates looked at, over all node
 /// A subproblem: the first `decided` frames of the branching order are open or closed.
 struct Node {
   double bound = 0;
+  double data = 0, irregularity = 0;  // the least with all frames that are not closed; of those that are open
   std::size_t decided = 0;
   std::vector<char> state;  // per frame: 0 undecided, 1 open, 2 closed
   bool operator<(const Node& o) const { return bound > o.bound; }  // smallest bound on top
 };
 
-double bound_of(const SelectionProblem& p, const Offers& offers, const std::vector<char>& state) {
+double least_data(const SelectionProblem& p, const Offers& offers, const std::vector<char>& state) {
   std::vector<double> least(p.patches(), std::numeric_limits<double>::infinity());
   for (int k = 0; k < p.frames(); ++k)
     if (state[k] != 2)
       for (const Offer& o : offers[k]) least[o.patch] = std::min(least[o.patch], o.cost);
-  double sum = std::accumulate(least.begin(), least.end(), 0.0);
-  for (int a = 0; a < p.frames(); ++a)
-    if (state[a] == 1)
-      for (int b = 0; b < a; ++b)
-        if (state[b] == 1) sum += (1.0 - p.lambda) * p.irregularity(a, b);
+  return std::accumulate(least.begin(), least.end(), 0.0);
+}
+
+/// Irregularity between a frame and those that are open.
+double irregularity_with(const SelectionProblem& p, int frame, const std::vector<char>& state) {
+  double sum = 0;
+  for (int k = 0; k < p.frames(); ++k)
+    if (state[k] == 1) sum += (1.0 - p.lambda) * p.irregularity(k, frame);
   return sum;
 }
 
@@ -60,13 +64,15 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
   root.state.assign(p.frames(), 0);
   for (int k = 0; k < p.frames(); ++k) {
     if (p.fixed[k]) {
+      root.irregularity += irregularity_with(p, k, root.state);
       root.state[k] = 1;
     } else {
       order.push_back(k);
     }
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight[a] > weight[b]; });
-  root.bound = bound_of(p, offers, root.state);
+  root.data = least_data(p, offers, root.state);
+  root.bound = root.data + root.irregularity;
   std::priority_queue<Node> open;
   open.push(root);
   const std::size_t nodes = kWork / (1 + static_cast<std::size_t>(p.patches()) * p.frames());
@@ -77,9 +83,14 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
     open.pop();
     for (const char state : {char{1}, char{2}}) {
       Node child = node;
-      child.state[order[node.decided]] = state;
-      ++child.decided;
-      child.bound = std::max(node.bound, bound_of(p, offers, child.state));
+      const int frame = order[child.decided++];
+      child.state[frame] = state;
+      if (state == 1) {
+        child.irregularity += irregularity_with(p, frame, node.state);
+      } else {
+        child.data = least_data(p, offers, child.state);
+      }
+      child.bound = std::max(node.bound, child.data + child.irregularity);
       if (child.bound < upper) open.push(std::move(child));
     }
   }

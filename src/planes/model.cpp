@@ -43,7 +43,7 @@ std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& 
 /// Gives parts of one direction whose offsets do not differ significantly one surface, the largest part first.
 void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, const Space& space, double least_noise,
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
-                    Model& model) {
+                    Model& model, const Context& context) {
   const double scale = 2.0 * grid.edge;
   constexpr double kTilt = 0.05 * kPi / 180.0;  // rad, how precisely a common direction is known
   struct Sum {
@@ -52,10 +52,15 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
     Vec3 normal;
     std::vector<int> cells;
   };
+  std::vector<Patch> patches(cells.size());
+  parallel_blocks(context, cells.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j)
+      if (!cells[j].empty()) patches[j] = make_patch(grid, space, std::move(cells[j]), least_noise);
+  });
   std::vector<Sum> sums;
   for (std::size_t j = 0; j < cells.size(); ++j) {
-    if (cells[j].empty()) continue;
-    const Patch patch = make_patch(grid, space, cells[j], least_noise);
+    const Patch& patch = patches[j];
+    if (patch.cells.empty()) continue;
     const double variance = std::pow(0.03 * scale, 2) + std::pow(patch.fit.rms, 2) / patch.moments.count;
     int to = -1;
     for (std::size_t s = 0; s < sums.size() && to < 0; ++s) {
@@ -73,10 +78,12 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
     sums[to].cells.insert(sums[to].cells.end(), patch.cells.begin(), patch.cells.end());
     model.parts.push_back({to, patch.cells});
   }
-  for (std::size_t s = 0; s < sums.size(); ++s) {
-    std::sort(sums[s].cells.begin(), sums[s].cells.end());
-    model.surfaces[s].support = make_patch(grid, space, std::move(sums[s].cells), least_noise);
-  }
+  parallel_blocks(context, sums.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      std::sort(sums[s].cells.begin(), sums[s].cells.end());
+      model.surfaces[s].support = make_patch(grid, space, std::move(sums[s].cells), least_noise);
+    }
+  });
 }
 
 }  // namespace
@@ -100,7 +107,8 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
     cells_of[group[j]].insert(cells_of[group[j]].end(), c.begin(), c.end());
   }
   for (std::vector<int>& c : cells_of) std::sort(c.begin(), c.end());
-  share_surfaces(normals, grid, space, patches.least_noise, r.frame_of_patch, r.local_of_patch, std::move(cells_of), model);
+  share_surfaces(normals, grid, space, patches.least_noise, r.frame_of_patch, r.local_of_patch, std::move(cells_of), model,
+                 context);
   return model;
 }
 

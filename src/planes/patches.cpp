@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <mutex>
 
 namespace unseen::planes {
 namespace {
@@ -48,10 +48,17 @@ double half_typical_noise(const VoxelGrid& grid, const Space& space, const CellS
   return 0.5 * *middle;
 }
 
-void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Patches& result) {
+using Pairs = std::vector<std::pair<int, int>>;
+
+void sort_unique(Pairs& pairs) {
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Patches& result, const Context& context) {
   const std::vector<int>& patch_of_cell = result.patch_of_cell;
   std::vector<int> parent;
-  const VoxelGrid coarse = grid.coarser(parent);  // voxels of edge ρ
+  const VoxelGrid coarse = grid.coarser(parent, context);  // voxels of edge ρ
   struct Member {  // a patch's share of a voxel
     int patch;
     Eigen::AlignedBox3d box;
@@ -69,27 +76,35 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     it->reach = std::max(it->reach, 1.6 * cells.reach[i]);
   }
   const double cos_angle = std::cos(angle);
-  std::set<std::pair<int, int>> adjoining, neighbours;
-  std::vector<int> beside, alike;  // patches found around one member
-  const auto once = [](std::vector<int>& list, int patch) {
-    if (std::find(list.begin(), list.end(), patch) == list.end()) list.push_back(patch);
-  };
-  for (std::size_t c = 0; c < coarse.size(); ++c)
-    for (const Member& a : members[c]) {
-      beside.clear();
-      alike.clear();
-      coarse.for_neighbours(c, static_cast<int>(a.reach / coarse.edge), [&](int o) {
-        for (const Member& b : members[o]) {
-          if (a.patch == b.patch || a.box.squaredExteriorDistance(b.box) >= a.reach * a.reach) continue;
-          once(beside, b.patch);
-          if (std::abs(a.normal.dot(b.normal)) > cos_angle) once(alike, b.patch);
-        }
-      });
-      for (const int b : beside) adjoining.insert(std::minmax(a.patch, b));
-      for (const int b : alike) neighbours.insert(std::minmax(a.patch, b));
-    }
-  result.adjoining.assign(adjoining.begin(), adjoining.end());
-  result.neighbours.assign(neighbours.begin(), neighbours.end());
+  std::mutex joining;
+  parallel_blocks(context, coarse.size(), 2048, [&](std::size_t begin, std::size_t end) {
+    Pairs adjoining, neighbours;
+    std::vector<int> beside, alike;  // patches found around one member
+    const auto once = [](std::vector<int>& list, int patch) {
+      if (std::find(list.begin(), list.end(), patch) == list.end()) list.push_back(patch);
+    };
+    for (std::size_t c = begin; c < end; ++c)
+      for (const Member& a : members[c]) {
+        beside.clear();
+        alike.clear();
+        coarse.for_neighbours(c, static_cast<int>(a.reach / coarse.edge), [&](int o) {
+          for (const Member& b : members[o]) {
+            if (a.patch == b.patch || a.box.squaredExteriorDistance(b.box) >= a.reach * a.reach) continue;
+            once(beside, b.patch);
+            if (std::abs(a.normal.dot(b.normal)) > cos_angle) once(alike, b.patch);
+          }
+        });
+        for (const int b : beside) adjoining.push_back(std::minmax(a.patch, b));
+        for (const int b : alike) neighbours.push_back(std::minmax(a.patch, b));
+      }
+    sort_unique(adjoining);
+    sort_unique(neighbours);
+    const std::lock_guard lock(joining);  // in any order: the whole is sorted
+    result.adjoining.insert(result.adjoining.end(), adjoining.begin(), adjoining.end());
+    result.neighbours.insert(result.neighbours.end(), neighbours.begin(), neighbours.end());
+  });
+  sort_unique(result.adjoining);
+  sort_unique(result.neighbours);
 }
 
 }  // namespace
@@ -125,14 +140,17 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
 
   Patches result;
   result.least_noise = half_typical_noise(grid, space, regions);
-  for (std::vector<int>& region : regions)
-    result.patches.push_back(make_patch(grid, space, std::move(region), result.least_noise));
+  result.patches.resize(regions.size());
+  parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r)
+      result.patches[r] = make_patch(grid, space, std::move(regions[r]), result.least_noise);
+  });
   std::stable_sort(result.patches.begin(), result.patches.end(),
                    [](const Patch& a, const Patch& b) { return a.area > b.area; });
   result.patch_of_cell.assign(grid.size(), -1);
   for (std::size_t j = 0; j < result.patches.size(); ++j)
     for (const int i : result.patches[j].cells) result.patch_of_cell[i] = static_cast<int>(j);
-  find_neighbours(grid, cells, angle, result);
+  find_neighbours(grid, cells, angle, result, context);
   return result;
 }
 

@@ -82,8 +82,8 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     seen = survey(source, context);
     check_distinct(seen, info.name);
     space = space_of(seen, info.two_dimensional);
-    result.scale = choose_scale(seen, space, options);
-    use_normals = normals_usable(seen, space);
+    result.scale = choose_scale(seen, space, options, context);
+    use_normals = normals_usable(seen, space, context);
     result.two_dimensional = space.is_2d();
     if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
     if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
@@ -94,7 +94,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   VoxelGrid grid;
   {
     Stage stage(context, summary, "voxels");
-    grid = VoxelGrid(summarise(source, 0.5 * result.scale, seen.duplicate, context));
+    grid = VoxelGrid(summarise(source, 0.5 * result.scale, seen.duplicate, context), context);
     check_not_collinear(grid, space, info.name);
     if (!use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());

@@ -51,7 +51,7 @@ bool same(const OrientationFrame& a, const OrientationFrame& b) {
 
 std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::vector<int>& members,
                                              const std::vector<OrientationFrame>& given, const AngleSet& angles,
-                                             const Space& space, double patch_angle) {
+                                             const Space& space, double patch_angle, const Context& context) {
   std::vector<Direction> directions = cluster_normals(patches, members, kCluster);
   if (directions.size() > kDirections) directions.resize(kDirections);
   std::vector<OrientationFrame> frames;
@@ -76,13 +76,15 @@ std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::
 
   // The closed frames that explain the most patches.
   const std::vector<Vec3> locals = local_directions(angles, space);
-  std::vector<std::pair<double, std::size_t>> ranked;
-  for (std::size_t k = 0; k < closed.size(); ++k) {
-    double worth = 0;
-    for (const int j : members)
-      worth += std::max(0.0, kWorth - best_candidate(patches.patches[j], closed[k], locals, patch_angle).cost);
-    ranked.emplace_back(-worth, k);
-  }
+  std::vector<std::pair<double, std::size_t>> ranked(closed.size());
+  parallel_blocks(context, closed.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      double worth = 0;
+      for (const int j : members)
+        worth += std::max(0.0, kWorth - best_candidate(patches.patches[j], closed[k], locals, patch_angle).cost);
+      ranked[k] = {-worth, k};
+    }
+  });
   std::stable_sort(ranked.begin(), ranked.end());
   for (const auto& [worth, k] : ranked) {
     if (frames.size() >= directions.size() + kFrames) break;

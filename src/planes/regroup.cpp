@@ -74,6 +74,36 @@ struct Region {
   std::set<int> adjacent;
 };
 
+/// Pairs of regions with voxels within reach of each other; some are there twice.
+std::vector<std::pair<int, int>> adjacent_regions(const VoxelGrid& grid, const Cells& cells,
+                                                  const std::vector<Region>& regions, const std::vector<int>& region_of,
+                                                  const Context& context) {
+  std::vector<std::vector<int>> beside(regions.size());
+  const std::vector<int> region_of_block = grid.labels_of_blocks(region_of);
+  parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) {
+      std::vector<int>& found = beside[r];
+      const auto no_other = [&](std::uint32_t block) {
+        return region_of_block[block] == VoxelGrid::kNone || region_of_block[block] == static_cast<int>(r);
+      };
+      for (const int i : regions[r].cells)
+        grid.for_neighbours_unless(i, voxels_within(cells, grid, i), no_other, [&](int k) {
+          const int o = region_of[k];
+          if (o < 0 || o == static_cast<int>(r)) return;
+          if (!found.empty() && found.back() == o) return;
+          if ((grid.moments[k].mean - grid.moments[i].mean).norm() > cells.reach[i]) return;
+          found.push_back(o);
+        });
+      std::sort(found.begin(), found.end());
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+    }
+  });
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    for (const int o : beside[r]) pairs.emplace_back(static_cast<int>(r), o);
+  return pairs;
+}
+
 /// The larger of the factors by which a common plane raises the rms of either; infinite beyond `angle`.
 double merge_loss(const Region& a, const Region& b, const Space& space, double angle, double floor) {
   if (line_angle(a.fit.normal, b.fit.normal) > angle) return std::numeric_limits<double>::infinity();
@@ -130,14 +160,9 @@ CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& s
     for (const int i : sets[r]) region_of[i] = static_cast<int>(r);
     regions[r].cells = std::move(sets[r]);
   }
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    if (region_of[i] < 0) continue;
-    grid.for_neighbours(i, voxels_within(cells, grid, i), [&](int k) {
-      if (region_of[k] < 0 || region_of[k] == region_of[i]) return;
-      if ((grid.moments[k].mean - grid.moments[i].mean).norm() > cells.reach[i]) return;
-      regions[region_of[i]].adjacent.insert(region_of[k]);
-      regions[region_of[k]].adjacent.insert(region_of[i]);
-    });
+  for (const auto& [a, b] : adjacent_regions(grid, cells, regions, region_of, context)) {
+    regions[a].adjacent.insert(b);
+    regions[b].adjacent.insert(a);
   }
   const double floor = 0.02 * 2.0 * grid.edge;
   using Entry = std::tuple<double, int, int>;  // loss, a, b: the best pair first
@@ -201,6 +226,7 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     size.push_back(space.is_2d() ? fit.spread_u : fit.spread_u * fit.spread_v);
     for (const int i : regions[r]) region_of[i] = static_cast<int>(r);
   }
+  const std::vector<int> region_of_block = grid.labels_of_blocks(region_of);
   std::vector<int> order(regions.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] < size[b]; });
@@ -212,7 +238,10 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     double allowed = (1.0 - kRimShare + 1e-9) * total;  // points that may be left unexplained
     for (const int i : regions[r]) {
       bool found = false;
-      grid.for_neighbours(i, voxels_within(cells, grid, i, kRimReach), [&](int k) {
+      const auto no_other = [&](std::uint32_t block) {
+        return found || region_of_block[block] == VoxelGrid::kNone || region_of_block[block] == r;
+      };
+      grid.for_neighbours_unless(i, voxels_within(cells, grid, i, kRimReach), no_other, [&](int k) {
         const int o = region_of[k];
         if (found || o < 0 || o == r || size[o] <= size[r]) return;
         found = std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];

@@ -33,20 +33,22 @@ struct Probe {
   std::size_t index = 0;
 };
 
-std::vector<Probe> probe(const Survey& survey, const Space& space) {
+std::vector<Probe> probe(const Survey& survey, const Space& space, const Context& context) {
   constexpr std::size_t kNeighbours = 32;
   const Sample sample{survey.sample};
   const Tree tree(3, sample, {10});
-  std::vector<Probe> probes;
+  std::vector<Probe> probes(std::min(kProbes, survey.sample.size()));
   const std::size_t count = std::min(kNeighbours, survey.sample.size());
-  std::vector<std::uint32_t> index(count);
-  std::vector<double> squared(count);
-  for (std::size_t i = 0; i < std::min(kProbes, survey.sample.size()); ++i) {
-    const std::size_t found = tree.knnSearch(survey.sample[i].data(), count, index.data(), squared.data());
-    Moments m;
-    for (std::size_t k = 0; k < found; ++k) m += Moments{1.0, survey.sample[index[k]], Mat3::Zero()};
-    probes.push_back({std::sqrt(squared[std::min<std::size_t>(6, found - 1)]), fit_plane(m, space), i});
-  }
+  parallel_blocks(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> index(count);
+    std::vector<double> squared(count);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t found = tree.knnSearch(survey.sample[i].data(), count, index.data(), squared.data());
+      Moments m;
+      for (std::size_t k = 0; k < found; ++k) m += Moments{1.0, survey.sample[index[k]], Mat3::Zero()};
+      probes[i] = {std::sqrt(squared[std::min<std::size_t>(6, found - 1)]), fit_plane(m, space), i};
+    }
+  });
   return probes;
 }
 
@@ -74,7 +76,7 @@ double median(const std::vector<Probe>& probes, const Space& space, F value) {
 
 }  // namespace
 
-double choose_scale(const Survey& survey, const Space& space, const Options& options) {
+double choose_scale(const Survey& survey, const Space& space, const Options& options, const Context& context) {
   const double extent = survey.extent();
   double scale = 0;
   if (options.scale) {
@@ -82,7 +84,7 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
   } else if (options.relative_scale) {
     scale = *options.relative_scale * extent;
   } else {
-    const std::vector<Probe> probes = probe(survey, space);
+    const std::vector<Probe> probes = probe(survey, space, context);
     // Thinning a surface to a share f of its points spreads them by 1/√f, a line by 1/f.
     const double thinning = space.is_2d() ? survey.share : std::sqrt(survey.share);
     const double spacing = thinning * median(probes, space, [](const Probe& p) { return p.sixth; });
@@ -96,9 +98,9 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
   return scale;
 }
 
-bool normals_usable(const Survey& survey, const Space& space) {
+bool normals_usable(const Survey& survey, const Space& space, const Context& context) {
   if (!survey.has_normals() || 2 * survey.without_normal > survey.finite) return false;
-  const std::vector<Probe> probes = probe(survey, space);
+  const std::vector<Probe> probes = probe(survey, space, context);
   return median(probes, space, [&](const Probe& p) {
            const Vec3 n = survey.sample_normals[p.index].cast<double>();
            return n.norm() > 0.5 ? line_angle(n, p.fit.normal) : kPi / 2;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <numeric>
 
 #include "planes/arrange.h"
@@ -118,7 +119,7 @@ OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Ve
 SelectionProblem make_problem(const Patches& patches, const std::vector<int>& members,
                               const std::vector<OrientationFrame>& frames, std::size_t fixed,
                               const AngleSet& angles, const std::vector<Vec3>& locals, double lambda,
-                              double patch_angle, const SelectionProblem& known) {
+                              double patch_angle, const SelectionProblem& known, const Context& context) {
   SelectionProblem p;
   p.lambda = lambda;
   const int rows = static_cast<int>(members.size()), cols = static_cast<int>(frames.size()), old = known.frames();
@@ -139,16 +140,20 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
       orientation_of[k].push_back(static_cast<int>(it - orientations.begin()));
       if (it == orientations.end()) orientations.push_back(n);
     }
-  for (int j = 0; j < rows; ++j)
-    for (int k = 0; k < cols; ++k) {
-      const Candidate c = best_candidate(patches.patches[members[j]], frames[k], locals, patch_angle);
-      p.data(j, k) = c.cost;
-      if (c.local >= 0) p.orientation(j, k) = orientation_of[k][c.local];
-    }
+  p.data.leftCols(old) = known.data;
+  p.orientation.leftCols(old) = known.orientation;
   p.irregularity.topLeftCorner(old, old) = known.irregularity;
-  for (int a = old; a < cols; ++a)
-    for (int b = 0; b < a; ++b)
-      p.irregularity(a, b) = p.irregularity(b, a) = irregularity(frames[a], frames[b], locals, angles);
+  parallel_blocks(context, cols - old, 8, [&](std::size_t begin, std::size_t end) {
+    for (int k = old + static_cast<int>(begin); k < old + static_cast<int>(end); ++k) {
+      for (int j = 0; j < rows; ++j) {
+        const Candidate c = best_candidate(patches.patches[members[j]], frames[k], locals, patch_angle);
+        p.data(j, k) = c.cost;
+        if (c.local >= 0) p.orientation(j, k) = orientation_of[k][c.local];
+      }
+      for (int b = 0; b < k; ++b)
+        p.irregularity(k, b) = p.irregularity(b, k) = irregularity(frames[k], frames[b], locals, angles);
+    }
+  });
   std::vector<int> row_of(patches.patches.size(), -1);
   for (int j = 0; j < rows; ++j) row_of[members[j]] = j;
   for (const auto& [a, b] : patches.neighbours)
@@ -175,6 +180,9 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     return s;
   }
   std::size_t done = 0;
+  // Bounds only report: those of one round are sought while the next ones choose.
+  const std::launch beside = context.threads == 1 ? std::launch::deferred : std::launch::async;
+  std::vector<std::future<double>> bounds;
   for (const std::vector<int>& round : rounds_by_area(patches)) {
     context.progress(static_cast<double>(done) / patches.patches.size());
     done += round.size();
@@ -187,11 +195,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       if (!(least < kExplained)) unexplained.push_back(j);
     }
     std::vector<OrientationFrame> frames = s.frames;
-    for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle))
+    for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle, context))
       frames.push_back(std::move(f));
     SelectionProblem problem;
     const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
-      return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem);
+      return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem, context);
     };
     problem = problem_of(frames);
     Labels labels = solve_local(problem, context);
@@ -207,14 +215,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       problem = std::move(next);
       labels = std::move(again);
     }
-    double bound = 0;
     if (options.solver == "exact") {
       ExactSolution exact = solve_exact(problem, labels, options.time_limit, context);
       labels = std::move(exact.labels);
-      bound = exact.bound;
+      s.bound += exact.bound;
       s.time_limit = s.time_limit || !exact.proven;
-    } else {
-      bound = lower_bound(problem, energy_of(problem, labels).total(), context);
     }
     // What fixed frames cost among themselves was counted in the rounds that chose them.
     const Energy e = energy_of(problem, labels);
@@ -224,7 +229,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     s.after.data += e.data;
     s.after.irregularity += e.irregularity - among_fixed;
     s.after.smoothness += e.smoothness;
-    s.bound += bound - among_fixed;
+    s.bound -= among_fixed;
+    if (options.solver != "exact")
+      bounds.push_back(std::async(beside, [problem = std::move(problem), upper = e.total(), &context] {
+        return lower_bound(problem, upper, context);
+      }));
 
     std::vector<int> kept(frames.size(), -1);
     for (std::size_t k = 0; k < fixed; ++k) kept[k] = static_cast<int>(k);
@@ -239,6 +248,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     }
   }
   give_shared_to_largest(patches, locals, patch_angle, s);
+  for (std::future<double>& bound : bounds) s.bound += bound.get();
   return s;
 }
 

@@ -23,7 +23,8 @@ struct Selection {
 /// `members` are the patches that may generate, the largest first.
 std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::vector<int>& members,
                                              const std::vector<OrientationFrame>& given, const AngleSet& angles,
-                                             const Space& space, double patch_angle);
+                                             const Space& space, double patch_angle,
+                                             const Context& context = Context());
 
 /// Least-squares rotation of a frame to patches that have given directions of it, each weighted by its own
 /// fit's variance. An open frame, or one with members of a single direction, turns as little as it must.
@@ -31,11 +32,12 @@ OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Ve
                              const std::vector<std::pair<const Patch*, int>>& members);
 
 /// The numbers of a selection problem for some patches and frames. `known` is the problem of the same patches
-/// and the first of these frames, if it was made before.
+/// and the first of these frames, if it was made before: what it knows is taken over.
 SelectionProblem make_problem(const Patches& patches, const std::vector<int>& members,
                               const std::vector<OrientationFrame>& frames, std::size_t fixed,
                               const AngleSet& angles, const std::vector<Vec3>& locals, double lambda,
-                              double patch_angle, const SelectionProblem& known = {});
+                              double patch_angle, const SelectionProblem& known = {},
+                              const Context& context = Context());
 
 /// Coarse to fine (thesis Algorithm 1): the largest patches choose their frames first; these stay, serve
 /// smaller patches, and are not changed by them.

@@ -29,26 +29,28 @@ std::uint64_t hash(const Vec3& p) {
 /// Marks all but one of the points that share their coordinates. Which one stays does not depend on the
 /// order of the points: the one with the smallest normal.
 void find_duplicates(const PointCloud& cloud, Survey& survey) {
-  std::vector<std::uint32_t> order;
-  std::vector<std::uint64_t> hashes(cloud.size());
+  struct Hashed {
+    std::uint64_t hash;
+    std::uint32_t point;
+  };
+  std::vector<Hashed> order;
+  order.reserve(cloud.size());
   for (std::uint32_t i = 0; i < cloud.size(); ++i)
-    if (cloud.positions[i].allFinite()) {
-      hashes[i] = hash(cloud.positions[i]);
-      order.push_back(i);
-    }
+    if (cloud.positions[i].allFinite()) order.push_back({hash(cloud.positions[i]), i});
   const auto less = [](const auto& a, const auto& b) {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (hashes[a] != hashes[b]) return hashes[a] < hashes[b];
+  std::sort(order.begin(), order.end(), [&](const Hashed& x, const Hashed& y) {
+    if (x.hash != y.hash) return x.hash < y.hash;
+    const std::uint32_t a = x.point, b = y.point;
     if (cloud.positions[a] != cloud.positions[b]) return less(cloud.positions[a], cloud.positions[b]);
     if (!cloud.normals.empty() && cloud.normals[a] != cloud.normals[b]) return less(cloud.normals[a], cloud.normals[b]);
     return a < b;
   });
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (hashes[order[i]] == hashes[order[i - 1]] && cloud.positions[order[i]] == cloud.positions[order[i - 1]]) {
+    if (order[i].hash == order[i - 1].hash && cloud.positions[order[i].point] == cloud.positions[order[i - 1].point]) {
       if (survey.duplicate.empty()) survey.duplicate.assign(cloud.size(), false);
-      survey.duplicate[order[i]] = true;
+      survey.duplicate[order[i].point] = true;
       ++survey.duplicates;
     }
 }

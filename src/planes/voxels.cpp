@@ -39,11 +39,6 @@ Mat3 symmetric(const std::array<std::int64_t, 6>& s, double unit) {
   return m * unit;
 }
 
-/// A voxel's place in the mask of its block.
-std::uint64_t bit_of(const VoxelKey& k) {
-  return std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
-}
-
 VoxelKey block_key_of(const VoxelKey& k) { return {k[0] >> 2, k[1] >> 2, k[2] >> 2}; }
 
 }  // namespace
@@ -127,8 +122,8 @@ void KeyTable::grow() {
   for (std::size_t k = 0; k < keys_.size(); ++k) slots_[slot(keys_[k])] = static_cast<std::uint32_t>(k + 1);
 }
 
-VoxelGrid::VoxelGrid(const VoxelBuilder& builder) : edge(builder.edge()) {
-  const std::vector<int> place_of = place(builder.keys(), kRings);
+VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context) : edge(builder.edge()) {
+  const std::vector<int> place_of = place(builder.keys(), kRings, context);
   moments.resize(size());
   bool any_normals = false;
   for (const VoxelSums& s : builder.sums()) any_normals = any_normals || (s.normal[0] + s.normal[3] + s.normal[5] > 0);
@@ -148,7 +143,7 @@ VoxelGrid::VoxelGrid(const VoxelBuilder& builder) : edge(builder.edge()) {
   }
 }
 
-std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int rings) {
+std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int rings, const Context& context) {
   KeyTable found;
   std::vector<std::uint64_t> masks;
   std::vector<std::uint32_t> found_of;
@@ -178,32 +173,24 @@ std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int ri
     keys[at] = unordered[i];
     block_of_[at] = b;
   }
-  link_blocks(rings);
+  link_blocks(rings, context);
   return place_of;
 }
 
-/// Blocks are sorted, so that the first block of each column beside one moves only forward with it.
-void VoxelGrid::link_blocks(int rings) {
-  const std::vector<VoxelKey>& key = block_table_.keys();
-  const int side = 2 * rings + 1;
-  std::vector<std::size_t> column(side * side, 0);
-  std::array<std::vector<std::uint32_t>, kRings + 1> found;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const auto [x, y, z] = key[b];
-    for (auto& ring : found) ring.clear();
-    for (int dx = -rings; dx <= rings; ++dx)
-      for (int dy = -rings; dy <= rings; ++dy) {
-        std::size_t& at = column[(dx + rings) * side + dy + rings];
-        while (at < key.size() && key[at] < VoxelKey{x + dx, y + dy, z - rings}) ++at;
-        for (std::size_t o = at; o < key.size() && key[o] <= VoxelKey{x + dx, y + dy, z + rings}; ++o)
-          found[std::max({std::abs(dx), std::abs(dy), std::abs(key[o][2] - z)})].push_back(static_cast<std::uint32_t>(o));
-      }
-    for (int r = 0; r <= kRings; ++r) {
-      blocks_[b].ring[r] = static_cast<std::uint32_t>(linked_.size());
-      linked_.insert(linked_.end(), found[r].begin(), found[r].end());
-    }
-    blocks_[b].ring[kRings + 1] = static_cast<std::uint32_t>(linked_.size());
+std::vector<int> VoxelGrid::labels_of_blocks(const std::vector<int>& label_of_voxel) const {
+  std::vector<int> labels(blocks_.size(), kNone);
+  for (std::size_t i = 0; i < size(); ++i) {
+    int& label = labels[block_of_[i]];
+    if (label_of_voxel[i] == kNone || label_of_voxel[i] == label) continue;
+    label = label == kNone ? label_of_voxel[i] : kSeveral;
   }
+  return labels;
+}
+
+VoxelSet VoxelGrid::empty_set() const {
+  VoxelSet set;
+  set.bits_.assign(blocks_.size(), 0);
+  return set;
 }
 
 VoxelKey VoxelGrid::key_of(const Vec3& p) const {
@@ -221,13 +208,13 @@ int VoxelGrid::find(const VoxelKey& key) const {
   return mask & bit ? static_cast<int>(blocks_[b].first) + count_bits(mask & (bit - 1)) : -1;
 }
 
-VoxelGrid VoxelGrid::coarser(std::vector<int>& parent) const {
+VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) const {
   std::vector<VoxelKey> up;
   up.reserve(size());
   for (const VoxelKey& k : keys) up.push_back({k[0] >> 1, k[1] >> 1, k[2] >> 1});
   VoxelGrid grid;
   grid.edge = 2.0 * edge;
-  parent = grid.place(up, kCoarserRings);
+  parent = grid.place(up, kCoarserRings, context);
   grid.moments.resize(grid.size());
   if (!normals.empty()) grid.normals.assign(grid.size(), Mat3::Zero());
   for (std::size_t i = 0; i < size(); ++i) {

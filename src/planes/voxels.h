@@ -64,11 +64,18 @@ class VoxelBuilder {
   std::vector<VoxelSums> sums_;
 };
 
+/// Some of a grid's voxels, as bits of its blocks: where few are left, most blocks are passed over at a glance.
+class VoxelSet {
+ private:
+  friend class VoxelGrid;
+  std::vector<std::uint64_t> bits_;
+};
+
 /// Occupied voxels in a fixed order (by blocks of 4³), found by key in constant time.
 class VoxelGrid {
  public:
   VoxelGrid() = default;
-  explicit VoxelGrid(const VoxelBuilder& builder);
+  explicit VoxelGrid(const VoxelBuilder& builder, const Context& context = Context());
 
   std::size_t size() const { return keys.size(); }
   VoxelKey key_of(const Vec3& p) const;
@@ -79,8 +86,25 @@ class VoxelGrid {
   /// `voxel` along every axis, itself included; blocks nearer to it come first.
   template <class F>
   void for_neighbours(std::size_t voxel, int reach, F&& f) const;
+  /// The same for those in a set, from which f may take the voxel it is called with.
+  template <class F>
+  void for_neighbours(std::size_t voxel, int reach, const VoxelSet& within, F&& f) const;
+
+  /// The same, passing over the blocks for which skip(block) is true.
+  template <class Skip, class F>
+  void for_neighbours_unless(std::size_t voxel, int reach, Skip&& skip, F&& f) const;
+  static constexpr int kNone = -1, kSeveral = -2;
+  /// Of each block the label that its voxels have, apart from those with kNone.
+  std::vector<int> labels_of_blocks(const std::vector<int>& label_of_voxel) const;
+
+  VoxelSet empty_set() const;
+  void insert(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] |= bit_of(keys[voxel]); }
+  void erase(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] &= ~bit_of(keys[voxel]); }
+  bool contains(const VoxelSet& set, std::size_t voxel) const {
+    return (set.bits_[block_of_[voxel]] & bit_of(keys[voxel])) != 0;
+  }
   /// The same points in voxels of twice the edge; `parent` gets each voxel's index in the coarser grid.
-  VoxelGrid coarser(std::vector<int>& parent) const;
+  VoxelGrid coarser(std::vector<int>& parent, const Context& context = Context()) const;
 
   double edge = 0;
   std::vector<VoxelKey> keys;
@@ -95,10 +119,17 @@ class VoxelGrid {
     std::array<std::uint32_t, kRings + 2> ring{};  ///< linked_[ring[r]…ring[r+1]): occupied blocks r blocks away
   };
   /// Lays out the voxels with these keys (some may be equal) and returns the index of each.
-  std::vector<int> place(const std::vector<VoxelKey>& unordered, int rings);
-  void link_blocks(int rings);
+  std::vector<int> place(const std::vector<VoxelKey>& unordered, int rings, const Context& context);
+  void link_blocks(int rings, const Context& context);
+  /// A voxel's place in the mask of its block.
+  static std::uint64_t bit_of(const VoxelKey& k) {
+    return std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
+  }
   template <class F>
-  static void visit(const Block& block, const VoxelKey& block_key, const VoxelKey& low, const VoxelKey& high, F&& f);
+  static void visit(const Block& block, std::uint64_t within, const VoxelKey& block_key, const VoxelKey& low,
+                    const VoxelKey& high, F&& f);
+  template <class Bits, class F>
+  void visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) const;
 
   KeyTable block_table_;
   std::vector<Block> blocks_;              ///< parallel to block_table_.keys()
@@ -118,7 +149,8 @@ inline int count_bits(std::uint64_t x) {
 }
 
 template <class F>
-void VoxelGrid::visit(const Block& block, const VoxelKey& block_key, const VoxelKey& low, const VoxelKey& high, F&& f) {
+void VoxelGrid::visit(const Block& block, std::uint64_t within, const VoxelKey& block_key, const VoxelKey& low,
+                      const VoxelKey& high, F&& f) {
   // The part of the 4³ bits that lies in the box, axis by axis.
   std::array<int, 3> from, to;
   for (int a = 0; a < 3; ++a) {
@@ -131,19 +163,37 @@ void VoxelGrid::visit(const Block& block, const VoxelKey& block_key, const Voxel
   const std::uint64_t slab = row & (ones(4 * (to[1] - from[1] + 1)) << (4 * from[1])) & 0xffffu;    // y
   const std::uint64_t cube = slab * 0x0001000100010001u;                                           // in four slabs
   const std::uint64_t in_x = to[0] - from[0] == 3 ? ~std::uint64_t{0} : ones(16 * (to[0] - from[0] + 1)) << (16 * from[0]);
-  for (std::uint64_t bits = block.mask & cube & in_x; bits != 0; bits &= bits - 1)
+  for (std::uint64_t bits = within & cube & in_x; bits != 0; bits &= bits - 1)
     f(static_cast<int>(block.first + count_bits(block.mask & ((bits & -bits) - 1))));
 }
 
-template <class F>
-void VoxelGrid::for_neighbours(std::size_t voxel, int reach, F&& f) const {
+template <class Bits, class F>
+void VoxelGrid::visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) const {
   const VoxelKey& key = keys[voxel];
   const VoxelKey low = {key[0] - reach, key[1] - reach, key[2] - reach};
   const VoxelKey high = {key[0] + reach, key[1] + reach, key[2] + reach};
   const Block& home = blocks_[block_of_[voxel]];
   const std::uint32_t end = home.ring[std::min((reach + 3) / 4, kRings) + 1];
-  for (std::uint32_t l = home.ring[0]; l < end; ++l)
-    visit(blocks_[linked_[l]], block_table_.keys()[linked_[l]], low, high, f);
+  for (std::uint32_t l = home.ring[0]; l < end; ++l) {
+    const std::uint32_t b = linked_[l];
+    if (const std::uint64_t within = bits(b); within != 0)
+      visit(blocks_[b], within, block_table_.keys()[b], low, high, f);
+  }
+}
+
+template <class F>
+void VoxelGrid::for_neighbours(std::size_t voxel, int reach, F&& f) const {
+  visit_blocks(voxel, reach, [&](std::uint32_t b) { return blocks_[b].mask; }, f);
+}
+
+template <class F>
+void VoxelGrid::for_neighbours(std::size_t voxel, int reach, const VoxelSet& within, F&& f) const {
+  visit_blocks(voxel, reach, [&](std::uint32_t b) { return within.bits_[b]; }, f);
+}
+
+template <class Skip, class F>
+void VoxelGrid::for_neighbours_unless(std::size_t voxel, int reach, Skip&& skip, F&& f) const {
+  visit_blocks(voxel, reach, [&](std::uint32_t b) { return skip(b) ? 0 : blocks_[b].mask; }, f);
 }
 
 }  // namespace unseen::planes
