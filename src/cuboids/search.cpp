@@ -13,6 +13,7 @@
 namespace unseen::cuboids {
 namespace {
 
+constexpr int kUsualPart = 8;         // bodies
 constexpr double kSameVolume = 1e-9;  // m³
 constexpr Cost kNoCost = {std::numeric_limits<int>::max(), std::numeric_limits<double>::infinity()};
 
@@ -41,7 +42,7 @@ struct Search {
   std::vector<char> inside;  ///< a body: part of what is solved now
   std::vector<char> held;    ///< a body: firm, as it is outside or as nothing can hold it
   std::vector<Certificate> known;
-  int visits = 0;          ///< arrangements looked at for this part
+  int visits = 0, most_visits = 0;  ///< arrangements looked at for this part
   std::vector<int> blame;  ///< a body: in how many dead ends it was on the move
   Choice best;
   bool found = false;
@@ -207,7 +208,7 @@ void blame(Search& s, const Verdict& verdict) {
 void visit(Search& s, const std::vector<int>& chosen, std::vector<char> closed) {
   ++s.best.nodes;
   s.context.check();
-  if (s.visits++ >= s.limits.arrangements || std::chrono::steady_clock::now() > s.end) {
+  if (s.visits++ >= s.most_visits || std::chrono::steady_clock::now() > s.end) {
     s.best.optimal = false;
     return;
   }
@@ -309,6 +310,8 @@ void descend(Search& s, std::vector<char> closed, std::vector<char>& unheld) {
 std::vector<int> solve_part(Search& s, const std::vector<int>& part, std::vector<char>& unheld) {
   s.inside.assign(s.problem.bodies(), 0);
   for (const int body : part) s.inside[body] = 1;
+  // Each costs the more the larger the part is.
+  s.most_visits = std::max(1, s.limits.arrangements * kUsualPart / std::max(kUsualPart, static_cast<int>(part.size())));
   std::vector<char> closed(s.problem.hypotheses.size(), 0);
   for (std::size_t h = 0; h < closed.size(); ++h)
     closed[h] = !s.inside[s.problem.hypotheses[h].a] && !s.inside[s.problem.hypotheses[h].b];
@@ -333,7 +336,7 @@ std::vector<int> solve_part(Search& s, const std::vector<int>& part, std::vector
     start(unheld);
     visit(s, {}, closed);
     if (s.found) return s.best.chosen;
-    const int body = s.visits > s.limits.arrangements ? -1 : most_blamed(s);
+    const int body = s.visits > s.most_visits ? -1 : most_blamed(s);
     if (body < 0) break;
     unheld[body] = 1;
   }
@@ -383,7 +386,7 @@ bool cheaper(const Cost& a, const Cost& b) {
 Choice search_contacts(const Problem& problem, const Admissible& admissible, const SearchLimits& limits, Context& context) {
   const auto time = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(limits.seconds));
   Search s{problem, admissible, context, limits, std::chrono::steady_clock::now() + time, arrange(problem, {}), largest_arrangement(problem),
-           {}, {}, std::vector<char>(problem.bodies(), 0), {}, 0, {}, {}, false};
+           {}, {}, std::vector<char>(problem.bodies(), 0), {}, 0, 0, {}, {}, false};
   s.initial_touches = touching_pairs(problem, s.initial);
   Parts parts;
   for (int i = 0; i < problem.bodies(); ++i) parts.of.push_back(i);
