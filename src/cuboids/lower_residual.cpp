@@ -92,12 +92,13 @@ void lower_residual(const Problem& problem, const std::vector<char>& held, Arran
       Arrangement next = now.arrangement;
       for (std::size_t i = 0; i < slope.size(); ++i)
         for (int face = 0; face < 6; ++face) {
+          if (slope[i][face] == 0.0) continue;
           // Newton's step along the gradient for an energy whose least is 0; faces that were not moved stay within noise.
-          const bool hidden = problem.cuboids.size() > i && start[i][face] > problem.tolerance[i];
+          const bool hidden = start[i][face] > problem.tolerance[i];
           const double freedom = hidden ? 4.0 * problem.tolerance[i] : 0.5 * problem.tolerance[i];
           const double wanted = now.arrangement.extension[i][face] - share * 2.0 * before / squared * slope[i][face];
           const double allowed = std::clamp(wanted, start[i][face] - freedom, start[i][face] + freedom);
-          next = slope[i][face] == 0.0 ? next : with_face(problem, std::move(next), static_cast<int>(i), face, allowed - next.extension[i][face]);
+          next = with_face(problem, std::move(next), static_cast<int>(i), face, allowed - next.extension[i][face]);
         }
       close_contacts(problem, touching_pairs(problem, next), next);
       if (penetrates(problem, next)) continue;
