@@ -127,7 +127,7 @@ cuboids::Completion parse_cuboids_result(const std::string& text, const std::str
   if (json["capability"].text() != "cuboids") json["capability"].fail("\"cuboids\"");
   cuboids::Completion c;
   Ids ids;
-  c.summary = read_summary(json["summary"]);
+  c.summary = read_summary(json["summary"], text);
   c.T_world_camera = transform(json["T_world_camera"]);
   for (const JsonField& field : json["supports"].list()) c.supports.push_back(support(field, ids));
   const Ids supports = ids;

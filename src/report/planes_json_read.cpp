@@ -94,7 +94,7 @@ planes::Arrangement parse_planes_result(const std::string& text, const std::stri
   a.scale = json["scale"].number(0);
   for (const JsonField& angle : json["angles_deg"].list()) a.angles.push_back(radians(angle.number(0, 180)));
   a.lambda = json["lambda"].number(0, 1);
-  a.summary = read_summary(json["summary"]);
+  a.summary = read_summary(json["summary"], text);
   read_frames(json, a);
   read_relations(json, a);
   return a;

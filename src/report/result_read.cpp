@@ -2,6 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include "report/result_read.h"
 
+#include <map>
+#include <vector>
+
 #include "unseen/report/stored_run.h"
 
 namespace unseen::report {
@@ -11,18 +14,39 @@ std::string read_result_text(const std::filesystem::path& path) {
   return io::read_text_file(path, kLargest);
 }
 
-Summary read_summary(const JsonField& json) {
+namespace {
+
+/// Names in each object of the summary in the order of the file, which a parsed object does not keep.
+std::map<std::string, std::vector<std::string>> names_in_order(const std::string& text) {
+  using Event = nlohmann::json::parse_event_t;
+  std::map<std::string, std::vector<std::string>> names;
+  bool in_summary = false;
+  std::string object;
+  const nlohmann::json whole = nlohmann::json::parse(text, [&](int depth, Event event, const nlohmann::json& parsed) {
+    if (event != Event::key) return true;
+    const std::string& key = parsed.get_ref<const std::string&>();
+    if (depth == 1) in_summary = key == "summary";
+    if (depth == 2) object = key;
+    if (depth == 3 && in_summary) names[object].push_back(key);
+    return true;
+  });
+  return names;
+}
+
+}  // namespace
+
+Summary read_summary(const JsonField& json, const std::string& text) {
   Summary summary;
   const std::string status = json["status"].text();
   bool known = false;
   for (const Status s : {Status::solved, Status::time_limit, Status::infeasible, Status::cancelled})
     if (status == to_string(s)) summary.status = s, known = true;
   if (!known) json["status"].fail("solved, time_limit, infeasible or cancelled");
-  for (const auto& [name, value] : json["seconds"].members())
-    summary.seconds.emplace_back(name, value.number(0));
-  for (const auto& [name, value] : json["energy"].members())
-    summary.energy.emplace_back(name, value.number());
-  for (const auto& [name, value] : json["counts"].members()) summary.counts.emplace_back(name, value.count());
+  for (const char* object : {"seconds", "energy", "counts"}) (void)json[object].members();  // an object, or an error
+  auto names = names_in_order(text);
+  for (const std::string& name : names["seconds"]) summary.seconds.emplace_back(name, json["seconds"][name].number(0));
+  for (const std::string& name : names["energy"]) summary.energy.emplace_back(name, json["energy"][name].number());
+  for (const std::string& name : names["counts"]) summary.counts.emplace_back(name, json["counts"][name].count());
   for (const JsonField& warning : json["warnings"].list()) summary.warnings.push_back(warning.text());
   return summary;
 }

@@ -16,7 +16,7 @@ using io::parse_json;
 /// The text of a result.json of at most 1 GiB. Throws InputError.
 std::string read_result_text(const std::filesystem::path& path);
 
-/// The summary of a result of any capability. Throws InputError naming file and field.
-Summary read_summary(const JsonField& json);
+/// The summary of a result of any capability; `text` is the file that `json` was parsed from. Throws InputError naming file and field.
+Summary read_summary(const JsonField& json, const std::string& text);
 
 }  // namespace unseen::report
