@@ -10,9 +10,12 @@ namespace unseen::cuboids {
 namespace {
 
 const double kUprightSine = std::sin(radians(15.0));
-const double kSlantedSine = std::sin(radians(12.0));
+const double kAlignedCosine = std::cos(radians(8.0));
+const double kLeastLean = radians(2.0), kMostLean = radians(15.0);
 const double kFaceCosine = std::cos(radians(20.0));
 constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
+constexpr double kSigmas = 4.0;             // standard errors: what leans by less is level
+constexpr double kEnoughExplained = 0.6, kClearlyMore = 0.2;  // shares of the points, for axes that are not level
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
 constexpr double kSliceQuantile = 0.9;
@@ -82,75 +85,108 @@ double end_of(const Observation& seen, std::span<const int> points, const Mat3& 
   return sign * (quantile(ends, kSliceQuantile) + 0.5 * spacing);
 }
 
-}  // namespace
-
-bool is_slanted(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces) {
+/// The face with the most points, if it is flat and has at least half of them.
+const Face* largest_face(std::span<const int> points, std::span<const Face* const> faces) {
   const Face* largest = nullptr;
   for (const Face* face : faces)
     if (!largest || face->points.size() > largest->points.size()) largest = face;
-  if (!largest || largest->points.size() * 2 < points.size() || largest->rms > 2.0) return false;
-  const double up = std::abs(largest->plane.normal.z()), sigma = seen.graph.sigma[largest->points.front()];
-  return up > kSlantedSine && up < std::sqrt(1.0 - kSlantedSine * kSlantedSine) && largest->width > 6.0 * sigma;
+  return largest && largest->points.size() * 2 >= points.size() && largest->rms <= 2.0 ? largest : nullptr;
 }
 
-BoxAxes box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation) {
-  BoxAxes result;
-  std::vector<const Face*> order(faces.begin(), faces.end());
-  std::stable_sort(order.begin(), order.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
-  if (free_orientation && !order.empty()) {
-    const Vec3 primary = order.front()->plane.normal;
-    Vec3 secondary = Vec3::Zero();
-    for (std::size_t f = 1; f < order.size() && secondary.isZero(); ++f)
-      if (std::abs(order[f]->plane.normal.dot(primary)) < kUprightSine && order[f]->width > 0.004) secondary = order[f]->plane.normal;
-    if (secondary.isZero()) {
-      const Vec3 u = any_orthogonal(primary), v = primary.cross(u);
-      std::vector<Vec2> flat;
-      for (const int i : order.front()->points) flat.emplace_back(u.dot(seen.points[i]), v.dot(seen.points[i]));
-      const double turn = rectangle_turn(flat);
-      secondary = std::cos(turn) * u + std::sin(turn) * v;
-    }
-    secondary = (secondary - secondary.dot(primary) * primary).normalized();
-    const std::array<Vec3, 3> raw{primary, secondary, primary.cross(secondary)};
-    const auto z = std::max_element(raw.begin(), raw.end(), [](const Vec3& a, const Vec3& b) { return std::abs(a.z()) < std::abs(b.z()); });
-    const Vec3& x = raw[(z - raw.begin() + 1) % 3];
-    result.axes.col(2) = z->z() < 0.0 ? Vec3(-*z) : *z;
-    result.axes.col(0) = x;
-    result.axes.col(1) = result.axes.col(2).cross(x);
-    result.yaw_information = kEnoughInformation;
-    return result;
+/// Standard error (rad) of a face's direction in the plane of its normal and `along`. Noise of neighbouring pixels is
+/// not independent: about one point in ten counts.
+double direction_error(const Observation& seen, const Face& face, const Vec3& along) {
+  double mean = 0, squares = 0, sigma = 0;
+  for (const int i : face.points) {
+    const double a = along.dot(seen.points[i] - face.center);
+    mean += a;
+    squares += a * a;
+    sigma += seen.graph.sigma[i];
   }
+  const double count = static_cast<double>(face.points.size());
+  const double spread = std::sqrt(std::max(squares / count - mean * mean / (count * count), 0.0));
+  if (spread * std::sqrt(12.0) < kShortestForYaw) return std::numeric_limits<double>::infinity();
+  return std::hypot(sigma / count / (spread * std::sqrt(count / 10.0)), kSystematic * 0.05 / spread);
+}
+
+/// Up-aligned axes turned to a largest face that leans, if it clearly does.
+Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes) {
+  const Face* largest = largest_face(points, faces);
+  if (!largest) return axes;
+  const Vec3& n = largest->plane.normal;
+  const bool flat = std::abs(n.z()) > 0.5;
+  const Vec3 level = flat ? Vec3(0, 0, n.z() < 0.0 ? -1.0 : 1.0) : Vec3(n.x(), n.y(), 0.0).normalized();
+  const double lean = std::acos(std::clamp(level.dot(n), -1.0, 1.0));
+  if (lean < kLeastLean || lean > kMostLean) return axes;
+  const Vec3 along = (level - level.dot(n) * n).normalized();
+  if (lean < kSigmas * direction_error(seen, *largest, along)) return axes;
+  return Eigen::Quaterniond::FromTwoVectors(level, n).toRotationMatrix() * axes;
+}
+
+/// Axes of the two largest orthogonal faces, or of the largest and the rectangle around its points.
+Mat3 free_axes(const Observation& seen, std::vector<const Face*> faces) {
+  std::stable_sort(faces.begin(), faces.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
+  const Vec3 primary = faces.front()->plane.normal;
+  Vec3 secondary = Vec3::Zero();
+  for (std::size_t f = 1; f < faces.size() && secondary.isZero(); ++f)
+    if (std::abs(faces[f]->plane.normal.dot(primary)) < kUprightSine && faces[f]->width > 0.004) secondary = faces[f]->plane.normal;
+  if (secondary.isZero()) {
+    const Vec3 u = any_orthogonal(primary), v = primary.cross(u);
+    std::vector<Vec2> flat;
+    for (const int i : faces.front()->points) flat.emplace_back(u.dot(seen.points[i]), v.dot(seen.points[i]));
+    const double turn = rectangle_turn(flat);
+    secondary = std::cos(turn) * u + std::sin(turn) * v;
+  }
+  secondary = (secondary - secondary.dot(primary) * primary).normalized();
+  const std::array<Vec3, 3> raw{primary, secondary, primary.cross(secondary)};
+  const auto z = std::max_element(raw.begin(), raw.end(), [](const Vec3& a, const Vec3& b) { return std::abs(a.z()) < std::abs(b.z()); });
+  Mat3 axes;
+  axes.col(2) = z->z() < 0.0 ? Vec3(-*z) : *z;
+  axes.col(0) = raw[(z - raw.begin() + 1) % 3];
+  axes.col(1) = axes.col(2).cross(axes.col(0));
+  return axes;
+}
+
+/// Share of the points that lie on faces across one of the axes.
+double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes) {
+  std::size_t count = 0;
+  for (const Face* face : faces)
+    if ((axes.transpose() * face->plane.normal).cwiseAbs().maxCoeff() > kAlignedCosine) count += face->points.size();
+  return static_cast<double>(count) / static_cast<double>(points.size());
+}
+
+Mat3 level_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces) {
   // Turns of upright faces count modulo a quarter: sum unit vectors at four times the angle.
   Vec2 sum = Vec2::Zero();
   for (const Face* face : faces) {
     const Vec3& n = face->plane.normal;
     if (std::abs(n.z()) > kUprightSine) continue;
     const Vec3 along = Vec3::UnitZ().cross(n).normalized();
-    double mean = 0, squares = 0, sigma = 0;
-    for (const int i : face->points) {
-      const double a = along.dot(seen.points[i] - face->center);
-      mean += a;
-      squares += a * a;
-      sigma += seen.graph.sigma[i];
-    }
-    const double count = static_cast<double>(face->points.size());
-    const double spread = std::sqrt(std::max(squares / count - mean * mean / (count * count), 0.0));
-    if (spread * std::sqrt(12.0) < kShortestForYaw) continue;
-    // Noise of neighbouring pixels is not independent: about one in ten counts.
-    const double error = sigma / count / (spread * std::sqrt(count / 10.0));
-    const double information = 1.0 / (error * error + kSystematic * kSystematic * std::pow(0.05 / spread, 2));
+    const double error = direction_error(seen, *face, along);
+    if (std::isinf(error)) continue;
+    const double information = 1.0 / (error * error);
     const double angle = 4.0 * std::atan2(n.y(), n.x());
     sum += information * Vec2(std::cos(angle), std::sin(angle));
   }
-  result.yaw_information = sum.norm();
   double yaw = 0.25 * std::atan2(sum.y(), sum.x());
-  if (result.yaw_information < kEnoughInformation) {
+  if (sum.norm() < kEnoughInformation) {
     std::vector<Vec2> flat;
     for (const int i : points) flat.emplace_back(seen.points[i].x(), seen.points[i].y());
     yaw = rectangle_turn(flat);
-    result.yaw_information = kEnoughInformation / 4.0;
   }
-  result.axes = turned(std::remainder(yaw, 0.5 * kPi));
-  return result;
+  return leant(seen, points, faces, turned(std::remainder(yaw, 0.5 * kPi)));
+}
+
+}  // namespace
+
+Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation) {
+  if (faces.empty()) return level_axes(seen, points, faces);
+  const Mat3 free = free_axes(seen, {faces.begin(), faces.end()});
+  if (free_orientation) return free;
+  const Mat3 level = level_axes(seen, points, faces);
+  const double share = explained_share(points, faces, free);
+  const bool slanted = share > kEnoughExplained && share > explained_share(points, faces, level) + kClearlyMore;
+  return slanted ? free : level;
 }
 
 OrientedBox bound(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,

@@ -11,18 +11,10 @@
 
 namespace unseen::cuboids {
 
-/// Directions of a box's edges and how sure its turn is.
-struct BoxAxes {
-  Mat3 axes = Mat3::Identity();
-  double yaw_information = 0;  ///< 1/rad²
-};
-
-/// Up-aligned: yaw from the upright faces, or from the rectangle of least area around the points; slanted: the two
-/// largest orthogonal faces. The third axis is the one closest to up.
-BoxAxes box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation);
-
-/// Whether the largest face leans neither upright nor flat, and clearly so.
-bool is_slanted(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces);
+/// Directions of a box's edges, the third the one closest to up. Free orientation: those of the two largest orthogonal
+/// faces. Else up-aligned, with the yaw of the upright faces or of the rectangle of least area around the points, turned
+/// to the largest face where that clearly leans; unless the faces that were seen clearly follow the free axes instead.
+Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation);
 
 /// The box with the given axes around what was seen: sides where a face was seen by the face's mean, the others where
 /// the points end (median over slices), at least a voxel thick away from the viewpoint.

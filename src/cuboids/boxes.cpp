@@ -69,8 +69,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     context.check();
     const ObjectPart& part = parts[k];
     const double voxel = std::max(kSigmas * mean_sigma(seen, part.points), finest);
-    const bool slanted = part.free_orientation || is_slanted(seen, part.points, faces_of[k]);
-    const Mat3 axes = box_axes(seen, part.points, faces_of[k], slanted).axes;
+    const Mat3 axes = box_axes(seen, part.points, faces_of[k], part.free_orientation);
     OrientedBox box = bound(seen, part.points, faces_of[k], axes, voxel);
     set_down(seen, part.points, box);
     if (filled_share(view, box, voxel) >= options.fill) {

@@ -51,7 +51,7 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
       // Sideways a box grows no longer than its longest side that was seen: else a pole would become a wall.
       const OrientedBox& box = cuboids[i].initial;
       if (std::abs(face_normal(box, face).z()) < kUpright)
-        rooms[i][face] = std::min(rooms[i][face], std::max(2.0 * (box.half_size.maxCoeff() - box.half_size[face / 2]), kFitOpen * step));
+        rooms[i][face] = std::min(rooms[i][face], std::max(2.0 * box.half_size.maxCoeff() - box.half_size[face / 2], kFitOpen * step));
     }
   return rooms;
 }
