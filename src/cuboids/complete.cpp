@@ -80,7 +80,8 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     problem.supports = result.supports;
     problem.cuboids = result.cuboids;
     problem.tolerance = tolerance;
-    assume_thickness(find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
+    assume_thickness(view, find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
+    close_hidden_gaps(find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
     problem.hypotheses = propose_contacts(problem, find_rooms(view, problem.cuboids, tolerance, kFarthest));
     summary.counts.emplace_back("cuboids", result.cuboids.size());
     summary.counts.emplace_back("hypotheses", problem.hypotheses.size());

@@ -24,9 +24,13 @@ std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std
 /// middle (thesis Section 4.4.1). Returns how many.
 std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);
 
-/// Boxes of which one face only was seen get a thickness: that of their narrower visible side, as far as hidden space goes.
-/// Something covers their top, or that would have shown it.
-void assume_thickness(const Rooms& rooms, Problem& problem);
+/// Upright boxes whose back was not seen get a thickness: that of their narrower visible side, as far as hidden space
+/// goes. Something covers the upper edge of their back, or that would have shown it.
+void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& problem);
+
+/// Faces that nobody saw, with a body no farther off than a few times the tolerance, move to meet it: that a gap so small
+/// is where none can look is less likely than a contact.
+void close_hidden_gaps(const Rooms& rooms, Problem& problem);
 
 /// Hypotheses by which legs whose upper end is hidden reach the plate over them.
 std::vector<int> legs_to_their_plates(const Problem& problem);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSameYaw = 10.0;  // deg: what two visible parts of one box may differ by
 
 constexpr double kKnownObject = 0.4;  // share that may be free where a label says that parts are one: boxes only resemble things
-constexpr double kToleranceSigmas = 5.0;
+constexpr double kSpacings = 3.0;  // between pixels, that an edge may be off
 constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
 
 struct Span {
@@ -95,8 +95,8 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
 std::vector<double> contact_tolerance(const DepthView& view, const std::vector<Cuboid>& cuboids) {
   std::vector<double> out;
   for (const Cuboid& cuboid : cuboids) {
-    const double sigma = view.sigma(cuboid.initial.center);
-    out.push_back(std::clamp(kToleranceSigmas * sigma, kLeastTolerance, kLargestTolerance));
+    const Vec3& place = cuboid.initial.center;
+    out.push_back(std::clamp(view.sigma(place) + kSpacings * view.spacing(place), kLeastTolerance, kLargestTolerance));
   }
   return out;
 }

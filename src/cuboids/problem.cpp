@@ -9,6 +9,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s²
+constexpr double kFilled = 0.25;   // of a gap: so deep its middle lies in what fills it
 
 double radius(const OrientedBox& box) { return box.half_size.norm(); }
 
@@ -18,6 +19,21 @@ double overlap(const Problem& problem, const std::vector<ConvexSolid>& solids, i
   const auto meet = problem.is_support(a) ? interface_of(problem.supports[a], second, 0.0)
                                           : interface_of(solids[a - problem.supports_count()], second, 0.0);
   return meet ? std::max(0.0, -meet->gap) : 0.0;
+}
+
+/// Whether a third body fills the gap of a touch, so that the two don't meet.
+bool is_filled(const std::vector<ConvexSolid>& solids, int first, const Touch& touch) {
+  const double gap = touch.interface.gap;
+  if (gap <= 0.0) return false;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : touch.interface.points) middle += p / static_cast<double>(touch.interface.points.size());
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    const int body = first + static_cast<int>(i);
+    if (body == touch.a || body == touch.b || (middle - solids[i].center).norm() > solids[i].radius) continue;
+    const auto is_inside = [&](const Plane& face) { return face.signed_distance(middle) < -kFilled * gap; };
+    if (std::all_of(solids[i].planes.begin(), solids[i].planes.end(), is_inside)) return true;
+  }
+  return false;
 }
 
 bool may_meet(const Problem& problem, const Arrangement& arrangement, int a, int b, double tolerance) {
@@ -96,7 +112,9 @@ std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arr
       const ConvexSolid& second = arrangement.solids[b - first_cuboid];
       auto meet = problem.is_support(a) ? interface_of(problem.supports[a], second, tolerance)
                                         : interface_of(arrangement.solids[a - first_cuboid], second, tolerance);
-      if (meet) touches.push_back({a, b, std::move(*meet)});
+      if (!meet) continue;
+      Touch touch{a, b, std::move(*meet)};
+      if (!is_filled(arrangement.solids, first_cuboid, touch)) touches.push_back(std::move(touch));
     }
   return touches;
 }

@@ -8,22 +8,40 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kUnseen = 3.0;   // tolerances: a thinner box was seen from one side only
+constexpr double kThin = 0.5;     // of the shorter other side: a thinner box may have been seen from one side only
 constexpr double kUpright = 0.3;  // cosine: such an axis is horizontal
+constexpr int kSamples = 9;       // along an edge
+
+/// Whether something hides what lies behind the upper edge of a face.
+bool is_covered(const DepthView& view, const OrientedBox& box, int face, double tolerance) {
+  const int axis = face / 2;
+  const int up = std::abs(box.axes(2, (axis + 1) % 3)) > std::abs(box.axes(2, (axis + 2) % 3)) ? (axis + 1) % 3 : (axis + 2) % 3;
+  const int along = 3 - axis - up;
+  const Vec3 upward = (box.axes(2, up) < 0.0 ? -1.0 : 1.0) * box.axes.col(up);
+  const Vec3 middle = box.center + (box.half_size[axis] + 4.0 * tolerance) * face_normal(box, face) +
+                      std::max(0.0, box.half_size[up] - 0.5 * tolerance) * upward;
+  int hidden = 0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = 0.8 * (2.0 * i / (kSamples - 1) - 1.0) * box.half_size[along];
+    hidden += view.at(middle + t * box.axes.col(along)) == DepthView::Space::hidden;
+  }
+  return 2 * hidden > kSamples;
+}
 
 }  // namespace
 
-void assume_thickness(const Rooms& rooms, Problem& problem) {
+void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& problem) {
   std::vector<ConvexSolid> solids;
   for (const Cuboid& cuboid : problem.cuboids) solids.push_back(solid_of(cuboid.initial));
   for (std::size_t i = 0; i < problem.cuboids.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       OrientedBox& box = problem.cuboids[i].initial;
       const double size = 2.0 * box.half_size[axis];
-      if (std::abs(box.axes(2, axis)) > kUpright || size > kUnseen * problem.tolerance[i]) continue;
+      const double depth = 2.0 * std::min(box.half_size[(axis + 1) % 3], box.half_size[(axis + 2) % 3]);
+      if (std::abs(box.axes(2, axis)) > kUpright || size > kThin * depth) continue;
       const int face = rooms[i][2 * axis] > rooms[i][2 * axis + 1] ? 2 * axis : 2 * axis + 1;
-      double length = 2.0 * std::min(box.half_size[(axis + 1) % 3], box.half_size[(axis + 2) % 3]) - size;
-      length = std::min(length, rooms[i][face]);
+      if (!is_covered(view, box, face, problem.tolerance[i])) continue;
+      double length = std::min(depth - size, rooms[i][face]);
       for (std::size_t j = 0; j < solids.size(); ++j)
         if (const auto gap = i == j ? std::nullopt : reach(box, face, solids[j])) length = std::min(length, *gap);
       for (const Support& support : problem.supports)
