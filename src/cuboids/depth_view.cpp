@@ -68,9 +68,9 @@ DepthView::Pixel DepthView::project(const Vec3& world) const {
 
 DepthView::Space DepthView::at(const Vec3& world) const {
   const Pixel pixel = project(world);
-  if (pixel.index < 0) return Space::unknown;
+  if (pixel.index < 0) return Space::outside;
   const double measured = depth_[pixel.index];
-  if (!(measured > 0.0)) return Space::unknown;
+  if (!(measured > 0.0)) return Space::missing;
   const double tolerance = kSigmas * noise_ * measured * measured;
   if (measured > pixel.depth + tolerance) return Space::free;
   return measured < pixel.depth - tolerance ? Space::hidden : Space::surface;

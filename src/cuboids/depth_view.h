@@ -16,7 +16,8 @@ class DepthView {
     free,     ///< in front of a measured surface by more than 3σ
     surface,  ///< within 3σ of it
     hidden,   ///< behind it
-    unknown   ///< no measurement there, or outside the picture
+    missing,  ///< no measurement there
+    outside   ///< of the picture
   };
 
   /// `noise` is σ of the depth at 1 m; it grows with the square of the depth (disparity sensors).

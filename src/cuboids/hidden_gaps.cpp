@@ -36,7 +36,7 @@ void close_hidden_gaps(const Rooms& rooms, Problem& problem) {
         if (other == body || meet[body][other]) continue;
         const bool support = problem.is_support(other);
         const double tolerance = problem.pair_tolerance(std::min(body, other), std::max(body, other));
-        const auto gap = support ? reach(box, face, problem.supports[other]) : reach(box, face, solids[other - first]);
+        const auto gap = support ? reach(box, face, problem.supports[other]) : reach(box, face, solids[other - first], tolerance);
         if (!gap || *gap > std::min(kSmallGap * tolerance, rooms[i][face])) continue;
         Extension extension{};
         extension[face] = *gap;

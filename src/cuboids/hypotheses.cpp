@@ -22,9 +22,9 @@ struct Proposer {
   double room(int body, int face) const { return rooms[body - problem.supports_count()][face]; }
   double tolerance(int a, int b) const { return problem.pair_tolerance(std::min(a, b), std::max(a, b)); }
 
-  std::optional<double> reach_of(const OrientedBox& from, int face, int to) const {
+  std::optional<double> reach_of(int mover, const OrientedBox& from, int face, int to) const {
     return problem.is_support(to) ? reach(from, face, problem.supports[to])
-                                  : reach(from, face, solids[to - problem.supports_count()]);
+                                  : reach(from, face, solids[to - problem.supports_count()], tolerance(mover, to));
   }
   void add(int a, int b, ContactKind kind, std::vector<FaceMove> moves) {
     found.push_back({std::min(a, b), std::max(a, b), kind, std::move(moves)});
@@ -47,7 +47,7 @@ double bottom(const OrientedBox& box) { return 2.0 * box.center.z() - top(box); 
 void propose_direct(Proposer& p, int a, int b, std::vector<FaceMove>& candidates) {
   for (int face = 0; face < 6; ++face) {
     if (p.room(a, face) <= 0.0) continue;
-    const auto length = p.reach_of(p.box(a), face, b);
+    const auto length = p.reach_of(a, p.box(a), face, b);
     if (!length || *length <= 0.0 || *length > p.room(a, face)) continue;
     candidates.push_back({a, face, *length});
   }
@@ -132,7 +132,7 @@ void propose_sideways(Proposer& p, int lower, int upper, int mover) {
       Extension extension{};
       extension[face] = length;
       const OrientedBox grown = extended(p.box(mover), extension);
-      const auto gap = mover == upper ? p.reach_of(grown, *down, lower) : reach(p.box(upper), *down, solid_of(grown));
+      const auto gap = mover == upper ? p.reach_of(upper, grown, *down, lower) : reach(p.box(upper), *down, solid_of(grown), overlap);
       if (!gap) continue;
       const FaceMove sideways = {mover, face, length};
       if (*gap <= overlap) {
@@ -176,7 +176,7 @@ std::vector<std::vector<int>> bodies_above(const Proposer& p) {
     if (!down) continue;
     std::vector<std::pair<double, int>> below;
     for (int lower = 0; lower < p.problem.bodies(); ++lower)
-      if (const auto gap = lower == upper ? std::nullopt : p.reach_of(p.box(upper), *down, lower)) below.emplace_back(*gap, lower);
+      if (const auto gap = lower == upper ? std::nullopt : p.reach_of(upper, p.box(upper), *down, lower)) below.emplace_back(*gap, lower);
     std::sort(below.begin(), below.end());
     for (const auto& [gap, lower] : below)
       if (gap <= below.front().first + p.problem.tolerance[upper - p.problem.supports_count()]) above[lower].push_back(upper);

@@ -15,8 +15,9 @@ using Rooms = std::vector<Extension>;
 Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
                  double farthest);
 
-/// m: how far a face must move outward until the box meets a body; none if it never does. 0 if they meet already.
-std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other);
+/// m: how far a face must move outward until the box meets a body; none if it never does. 0 if they meet already. A body
+/// that the swept space only grazes, by less than `tolerance` (m) at its sides, is not met.
+std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other, double tolerance);
 std::optional<double> reach(const OrientedBox& box, int face, const Support& other);
 
 /// Contacts that pairs of bodies may have through hidden space (design page, step 5; thesis Fig. 4.7). Touching: a

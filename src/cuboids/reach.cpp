@@ -9,7 +9,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kParallel = 1e-6;
-constexpr double kInset = 0.95;  // bodies flush with the sides of the swept space are not in it
+constexpr double kInset = 0.05, kMostInset = 0.5;  // of a half size: bodies flush with the sides of the swept space are not in it
 
 /// The part of a polygon on the inner side of a plane.
 std::vector<Vec3> clip(const std::vector<Vec3>& polygon, const Vec3& normal, double offset) {
@@ -25,7 +25,7 @@ std::vector<Vec3> clip(const std::vector<Vec3>& polygon, const Vec3& normal, dou
 
 }  // namespace
 
-std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other) {
+std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other, double tolerance) {
   const Vec3 direction = face_normal(box, face);
   const double start = direction.dot(box.center) + box.half_size[face / 2];
   double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
@@ -35,7 +35,7 @@ std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid&
     for (int side = 0; side < 3; ++side) {
       if (side == face / 2) continue;
       const Vec3 axis = box.axes.col(side);
-      const double middle = axis.dot(box.center), half = kInset * box.half_size[side];
+      const double middle = axis.dot(box.center), half = box.half_size[side] - std::clamp(tolerance, kInset * box.half_size[side], kMostInset * box.half_size[side]);
       polygon = clip(polygon, axis, middle + half);
       polygon = clip(polygon, -axis, -middle + half);
     }

@@ -21,18 +21,26 @@ std::vector<double> places(double half, double inset, double step) {
   return out;
 }
 
-/// Share of the samples of a face, moved outward by `distance`, that the view proves free.
-double free_share(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
+constexpr double kMostMissing = 0.5;  // of a face that moves sideways: what is there would have been measured
+
+struct Shares {
+  double free = 0, missing = 0;
+};
+
+/// Shares of the samples of a face, moved outward by `distance`, that the view proves free, and that it did not measure.
+Shares shares_of(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
   const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3 middle = box.center + face_normal(box, face) * (box.half_size[axis] + distance);
   const double step = std::max(2.0 * view.spacing(middle), inset);
-  int free = 0, all = 0;
+  double free = 0, missing = 0, all = 0;
   for (const double x : places(box.half_size[u], inset, step))
     for (const double y : places(box.half_size[v], inset, step)) {
+      const DepthView::Space space = view.at(middle + x * box.axes.col(u) + y * box.axes.col(v));
       ++all;
-      free += view.at(middle + x * box.axes.col(u) + y * box.axes.col(v)) == DepthView::Space::free;
+      free += space == DepthView::Space::free;
+      missing += space == DepthView::Space::missing;
     }
-  return static_cast<double>(free) / all;
+  return {free / all, missing / all};
 }
 
 }  // namespace
@@ -44,13 +52,17 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
     for (int face = 0; face < 6; ++face) {
       const double step = tolerance[i];
       // A face that is seen stops at the first step: it may still move by what the fit leaves open.
+      const bool sideways = std::abs(face_normal(cuboids[i].initial, face).z()) < kUpright;
+      const auto is_open = [&](double at) {
+        const Shares shares = shares_of(view, cuboids[i].initial, face, at, tolerance[i]);
+        return shares.free <= kFreeShare && (!sideways || shares.missing <= kMostMissing);
+      };
       double at = step;
-      while (at < farthest && free_share(view, cuboids[i].initial, face, at + 0.5 * step, tolerance[i]) <= kFreeShare)
-        at += step;
+      while (at < farthest && is_open(at + 0.5 * step)) at += step;
       rooms[i][face] = at > 1.5 * step ? at : kFitOpen * step;
       // Sideways a box grows no longer than its longest side that was seen: else a pole would become a wall.
       const OrientedBox& box = cuboids[i].initial;
-      if (std::abs(face_normal(box, face).z()) < kUpright)
+      if (sideways)
         rooms[i][face] = std::min(rooms[i][face], std::max(2.0 * box.half_size.maxCoeff() - box.half_size[face / 2], kFitOpen * step));
     }
   return rooms;

@@ -43,7 +43,7 @@ void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& proble
       if (!is_covered(view, box, face, problem.tolerance[i])) continue;
       double length = std::min(depth - size, rooms[i][face]);
       for (std::size_t j = 0; j < solids.size(); ++j)
-        if (const auto gap = i == j ? std::nullopt : reach(box, face, solids[j])) length = std::min(length, *gap);
+        if (const auto gap = i == j ? std::nullopt : reach(box, face, solids[j], problem.tolerance[i])) length = std::min(length, *gap);
       for (const Support& support : problem.supports)
         if (const auto gap = reach(box, face, support)) length = std::min(length, *gap);
       if (length <= 0.0) continue;

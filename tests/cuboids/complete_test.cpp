@@ -40,11 +40,11 @@ TEST(Reach, IsTheDistanceToTheNearestPointInTheWay) {
   // A plane that rises along x: the corner at +x meets it first.
   const Vec3 normal = Vec3(-0.6, 0, 0.8);
   EXPECT_NEAR(*reach(mover, 4, Support{0, SupportKind::ground, {normal, 0.0}, {}}), 0.9 - 0.1 * 0.6 / 0.8, 1e-12);
-  EXPECT_NEAR(*reach(mover, 4, solid_of(box({0.05, 0, 0.3}, {0.1, 0.1, 0.2}))), 0.5, 1e-12);
+  EXPECT_NEAR(*reach(mover, 4, solid_of(box({0.05, 0, 0.3}, {0.1, 0.1, 0.2})), 0.0), 0.5, 1e-12);
   // Turned by 45°, its edge is nearest to the face that moves along x.
-  EXPECT_NEAR(*reach(mover, 1, solid_of(box({1, 0, 1}, {0.2, 0.2, 0.2}, kPi / 4))), 0.9 - std::sqrt(0.02), 1e-9);
-  EXPECT_FALSE(reach(mover, 5, solid_of(box({0, 0, 0.3}, {0.1, 0.1, 0.2}))));  // behind
-  EXPECT_FALSE(reach(mover, 4, solid_of(box({0.5, 0, 0.3}, {0.1, 0.1, 0.2}))));  // beside
+  EXPECT_NEAR(*reach(mover, 1, solid_of(box({1, 0, 1}, {0.2, 0.2, 0.2}, kPi / 4)), 0.0), 0.9 - std::sqrt(0.02), 1e-9);
+  EXPECT_FALSE(reach(mover, 5, solid_of(box({0, 0, 0.3}, {0.1, 0.1, 0.2})), 0.0));  // behind
+  EXPECT_FALSE(reach(mover, 4, solid_of(box({0.5, 0, 0.3}, {0.1, 0.1, 0.2})), 0.0));  // beside
   EXPECT_FALSE(reach(mover, 5, Support{0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}}));
 }
 

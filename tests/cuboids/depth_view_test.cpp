@@ -23,9 +23,9 @@ TEST(DepthView, TellsFreeFromHiddenSpace) {
   EXPECT_EQ(view.at({0.2, 0.2, 1.5}), Space::free);
   EXPECT_EQ(view.at({0.2, 0.2, 1.99}), Space::surface);
   EXPECT_EQ(view.at({0.2, 0.2, 2.5}), Space::hidden);
-  EXPECT_EQ(view.at({0.005, 0.005, 1.0}), Space::unknown);  // not measured
-  EXPECT_EQ(view.at({5.0, 0.0, 1.0}), Space::unknown);    // outside
-  EXPECT_EQ(view.at({0.0, 0.0, -1.0}), Space::unknown);   // behind
+  EXPECT_EQ(view.at({0.005, 0.005, 1.0}), Space::missing);  // not measured
+  EXPECT_EQ(view.at({5.0, 0.0, 1.0}), Space::outside);    // outside
+  EXPECT_EQ(view.at({0.0, 0.0, -1.0}), Space::outside);   // behind
   EXPECT_NEAR(view.sigma({0, 0, 2}), 0.006, 1e-12);
 }
 
@@ -38,7 +38,7 @@ TEST(DepthView, TakesAFusedCloudFromItsViewpoint) {
   const DepthView moved(frame, {Mat3::Identity(), eye}, 0.0015);
   EXPECT_EQ(view.at({0.1, 1.5, 0.5}), Space::free);
   EXPECT_EQ(view.at({0.2, 6.0, 1.0}), Space::hidden);
-  EXPECT_EQ(view.at({0.0, -1.0, 0.0}), Space::unknown);
+  EXPECT_EQ(view.at({0.0, -1.0, 0.0}), Space::missing);
   EXPECT_LT((moved.viewpoint() - eye).norm(), 1e-12);
 }
 
