@@ -33,11 +33,15 @@ void close_hidden_gaps(const Rooms& rooms, Problem& problem) {
       OrientedBox& box = problem.cuboids[i].initial;
       double length = 0.0;
       for (int other = 0; other < problem.bodies(); ++other) {
-        if (other == body || meet[body][other]) continue;
+        if (other == body) continue;
         const bool support = problem.is_support(other);
         const double tolerance = problem.pair_tolerance(std::min(body, other), std::max(body, other));
         const auto gap = support ? reach(box, face, problem.supports[other]) : reach(box, face, solids[other - first], tolerance);
         if (!gap || *gap > std::min(kSmallGap * tolerance, rooms[i][face])) continue;
+        if (meet[body][other]) {
+          length = 0.0;
+          break;
+        }
         Extension extension{};
         extension[face] = *gap;
         const ConvexSolid grown = solid_of(extended(box, extension));

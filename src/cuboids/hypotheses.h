@@ -15,6 +15,10 @@ using Rooms = std::vector<Extension>;
 Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
                  double farthest);
 
+/// Whether nobody could have seen that a box reaches `distance` farther at a face: there, its upper edge is hidden or
+/// outside the picture. Where nothing was measured, the surface of the box would have been.
+bool is_covered(const DepthView& view, const OrientedBox& box, int face, double distance, double tolerance);
+
 /// m: how far a face must move outward until the box meets a body; none if it never does. 0 if they meet already. A body
 /// that the swept space only grazes, by less than `tolerance` (m) at its sides, is not met.
 std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other, double tolerance);

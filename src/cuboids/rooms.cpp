@@ -21,29 +21,39 @@ std::vector<double> places(double half, double inset, double step) {
   return out;
 }
 
-constexpr double kMostMissing = 0.5;  // of a face that moves sideways: what is there would have been measured
+constexpr int kEdgeSamples = 9;
 
-struct Shares {
-  double free = 0, missing = 0;
-};
-
-/// Shares of the samples of a face, moved outward by `distance`, that the view proves free, and that it did not measure.
-Shares shares_of(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
+/// Share of the samples of a face, moved outward by `distance`, that the view proves free.
+double free_share(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
   const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3 middle = box.center + face_normal(box, face) * (box.half_size[axis] + distance);
   const double step = std::max(2.0 * view.spacing(middle), inset);
-  double free = 0, missing = 0, all = 0;
+  int free = 0, all = 0;
   for (const double x : places(box.half_size[u], inset, step))
     for (const double y : places(box.half_size[v], inset, step)) {
-      const DepthView::Space space = view.at(middle + x * box.axes.col(u) + y * box.axes.col(v));
       ++all;
-      free += space == DepthView::Space::free;
-      missing += space == DepthView::Space::missing;
+      free += view.at(middle + x * box.axes.col(u) + y * box.axes.col(v)) == DepthView::Space::free;
     }
-  return {free / all, missing / all};
+  return static_cast<double>(free) / all;
 }
 
 }  // namespace
+
+bool is_covered(const DepthView& view, const OrientedBox& box, int face, double distance, double tolerance) {
+  const int axis = face / 2;
+  const int up = std::abs(box.axes(2, (axis + 1) % 3)) > std::abs(box.axes(2, (axis + 2) % 3)) ? (axis + 1) % 3 : (axis + 2) % 3;
+  const int along = 3 - axis - up;
+  const Vec3 upward = (box.axes(2, up) < 0.0 ? -1.0 : 1.0) * box.axes.col(up);
+  const Vec3 middle = box.center + (box.half_size[axis] + distance) * face_normal(box, face) +
+                      std::max(0.0, box.half_size[up] - 0.5 * tolerance) * upward;
+  int covered = 0;
+  for (int i = 0; i < kEdgeSamples; ++i) {
+    const double t = 0.8 * (2.0 * i / (kEdgeSamples - 1) - 1.0) * box.half_size[along];
+    const DepthView::Space space = view.at(middle + t * box.axes.col(along));
+    covered += space == DepthView::Space::hidden || space == DepthView::Space::outside;
+  }
+  return 2 * covered > kEdgeSamples;
+}
 
 Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
                  double farthest) {
@@ -54,9 +64,10 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
       // A face that is seen stops at the first step: it may still move by what the fit leaves open.
       const bool sideways = std::abs(face_normal(cuboids[i].initial, face).z()) < kUpright;
       const auto is_open = [&](double at) {
-        const Shares shares = shares_of(view, cuboids[i].initial, face, at, tolerance[i]);
-        return shares.free <= kFreeShare && (!sideways || shares.missing <= kMostMissing);
+        return free_share(view, cuboids[i].initial, face, at, tolerance[i]) <= kFreeShare &&
+               (!sideways || is_covered(view, cuboids[i].initial, face, at, tolerance[i]));
       };
+      if (sideways && cuboids[i].by_symmetry) continue;
       double at = step;
       while (at < farthest && is_open(at + 0.5 * step)) at += step;
       rooms[i][face] = at > 1.5 * step ? at : kFitOpen * step;

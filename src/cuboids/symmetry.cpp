@@ -55,6 +55,20 @@ OrientedBox mirrored(const OrientedBox& leg, const OrientedBox& plate, const std
   return out;
 }
 
+/// Whether two legs in line along an axis of the plate stand unequally far from its middle: then an end of it is hidden.
+bool is_lopsided(const std::vector<Cuboid>& cuboids, const std::vector<std::size_t>& legs, const OrientedBox& plate, int axis, int other) {
+  for (const std::size_t i : legs)
+    for (const std::size_t j : legs) {
+      const Vec3 first = plate.axes.transpose() * (cuboids[i].initial.center - plate.center);
+      const Vec3 second = plate.axes.transpose() * (cuboids[j].initial.center - plate.center);
+      const double width = 2.0 * cuboids[i].initial.half_size.minCoeff();
+      if (std::abs(first[other] - second[other]) < width && std::abs(first[axis] - second[axis]) > width &&
+          std::abs(first[axis] + second[axis]) > width)
+        return true;
+    }
+  return false;
+}
+
 /// True if nothing of it could have been seen.
 bool is_hidden(const DepthView& view, const OrientedBox& box) {
   constexpr int kSamples = 6;
@@ -93,8 +107,12 @@ std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids,
   const std::size_t seen = cuboids.size();
   for (const auto& [plate, legs] : tables_of(cuboids, tolerance)) {
     const int up = vertical_axis(cuboids[plate].initial);
+    const OrientedBox& board = cuboids[plate].initial;
+    const bool even[2] = {!is_lopsided(cuboids, legs, board, (up + 1) % 3, (up + 2) % 3),
+                          !is_lopsided(cuboids, legs, board, (up + 2) % 3, (up + 1) % 3)};
     for (const std::size_t leg : legs)
       for (const auto& [first, second] : {std::pair{true, false}, std::pair{false, true}, std::pair{true, true}}) {
+        if ((first && !even[0]) || (second && !even[1])) continue;
         std::array<bool, 3> along{};
         along[(up + 1) % 3] = first;
         along[(up + 2) % 3] = second;

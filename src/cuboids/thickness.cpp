@@ -10,23 +10,6 @@ namespace {
 
 constexpr double kThin = 0.5;     // of the shorter other side: a thinner box may have been seen from one side only
 constexpr double kUpright = 0.3;  // cosine: such an axis is horizontal
-constexpr int kSamples = 9;       // along an edge
-
-/// Whether something hides what lies behind the upper edge of a face.
-bool is_covered(const DepthView& view, const OrientedBox& box, int face, double tolerance) {
-  const int axis = face / 2;
-  const int up = std::abs(box.axes(2, (axis + 1) % 3)) > std::abs(box.axes(2, (axis + 2) % 3)) ? (axis + 1) % 3 : (axis + 2) % 3;
-  const int along = 3 - axis - up;
-  const Vec3 upward = (box.axes(2, up) < 0.0 ? -1.0 : 1.0) * box.axes.col(up);
-  const Vec3 middle = box.center + (box.half_size[axis] + 4.0 * tolerance) * face_normal(box, face) +
-                      std::max(0.0, box.half_size[up] - 0.5 * tolerance) * upward;
-  int hidden = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    const double t = 0.8 * (2.0 * i / (kSamples - 1) - 1.0) * box.half_size[along];
-    hidden += view.at(middle + t * box.axes.col(along)) == DepthView::Space::hidden;
-  }
-  return 2 * hidden > kSamples;
-}
 
 }  // namespace
 
@@ -40,7 +23,7 @@ void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& proble
       const double depth = 2.0 * std::min(box.half_size[(axis + 1) % 3], box.half_size[(axis + 2) % 3]);
       if (std::abs(box.axes(2, axis)) > kUpright || size > kThin * depth) continue;
       const int face = rooms[i][2 * axis] > rooms[i][2 * axis + 1] ? 2 * axis : 2 * axis + 1;
-      if (!is_covered(view, box, face, problem.tolerance[i])) continue;
+      if (!is_covered(view, box, face, 4.0 * problem.tolerance[i], problem.tolerance[i])) continue;
       double length = std::min(depth - size, rooms[i][face]);
       for (std::size_t j = 0; j < solids.size(); ++j)
         if (const auto gap = i == j ? std::nullopt : reach(box, face, solids[j], problem.tolerance[i])) length = std::min(length, *gap);
