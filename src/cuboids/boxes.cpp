@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cuboids/box_fit.h"
+#include "cuboids/hypotheses.h"
 #include "cuboids/slabs.h"
 #include "unseen/core/error.h"
 
@@ -29,14 +30,25 @@ double mean_sigma(const Observation& seen, std::span<const int> points) {
   return sum / static_cast<double>(points.size());
 }
 
+double bottom_of(const OrientedBox& box) { return box.center.z() - box.half_size.z(); }
+
 /// What ends just above the ground stands on it: its lowest slice counts as ground's.
-void set_down(const Observation& seen, std::span<const int> points, OrientedBox& box) {
-  if (box.axes(2, 2) < 1.0 - 1e-9) return;
-  const double bottom = box.center.z() - box.half_size.z();
+OrientedBox set_down(const Observation& seen, std::span<const int> points, OrientedBox box) {
+  const double bottom = bottom_of(box);
   const double reach = 5.0 * mean_sigma(seen, points) + 2.0 * seen.graph.spacing[points.front()];
-  if (std::abs(bottom) > reach) return;
+  if (box.axes(2, 2) < 1.0 - 1e-9 || std::abs(bottom) > reach) return box;
   box.center.z() -= 0.5 * bottom;
   box.half_size.z() += 0.5 * bottom;
+  return box;
+}
+
+/// Whether a box ends nearer to what lies below it than to the ground.
+bool stands_on_another(const std::vector<Cuboid>& cuboids, const OrientedBox& box) {
+  return std::any_of(cuboids.begin(), cuboids.end(), [&](const Cuboid& other) {
+    if (bottom_of(other.box) > bottom_of(box) || other.box.center.z() > bottom_of(box)) return false;
+    const auto gap = reach(box, 4, solid_of(other.box), 0.0);
+    return gap && *gap < bottom_of(box);
+  });
 }
 
 }  // namespace
@@ -53,35 +65,36 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
   for (const Face& face : faces.faces) faces_of[group[face.points.front()]].push_back(&face);
 
   const double finest = kFinestVoxel * radius_of(seen, parts);
-  const auto add = [&](const ObjectPart& part, const OrientedBox& box, std::size_t count) {
+  std::vector<OrientedBox> set_downs;
+  const auto add = [&](const ObjectPart& part, std::span<const int> points, const OrientedBox& box) {
     if (box.half_size.maxCoeff() > kFarthest)
       throw InputError(frame.name, "depth", "a box of over 100 m", "metres after division by depth_scale");
     Cuboid cuboid;
     cuboid.id = static_cast<int>(seen.supports.size() + cuboids.size());
     cuboid.box = cuboid.initial = box;
-    cuboid.visible_points = count;
+    cuboid.visible_points = points.size();
     cuboid.label = part.label;
     const auto density = frame.densities.find(part.label);
     cuboid.density = density == frame.densities.end() ? options.density : density->second;
     cuboids.push_back(cuboid);
+    set_downs.push_back(set_down(seen, points, box));
   };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];
     const double voxel = std::max(kSigmas * mean_sigma(seen, part.points), finest);
     const Mat3 axes = box_axes(seen, part.points, faces_of[k], part.free_orientation);
-    OrientedBox box = bound(seen, part.points, faces_of[k], axes, voxel);
-    set_down(seen, part.points, box);
-    if (filled_share(view, box, voxel) >= options.fill) {
-      add(part, box, part.points.size());
+    const OrientedBox box = bound(seen, part.points, faces_of[k], axes, voxel);
+    const OrientedBox standing = set_down(seen, part.points, box);
+    if (filled_share(view, standing, voxel) >= options.fill) {
+      add(part, part.points, box);
       continue;
     }
-    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, box, voxel, options.fill)) {
-      OrientedBox piece = bound(seen, slab, {}, axes, voxel);
-      set_down(seen, slab, piece);
-      add(part, piece, slab.size());
-    }
+    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, standing, voxel, options.fill))
+      add(part, slab, bound(seen, slab, {}, axes, voxel));
   }
+  for (std::size_t i = 0; i < cuboids.size(); ++i)
+    if (!stands_on_another(cuboids, cuboids[i].initial)) cuboids[i].box = cuboids[i].initial = set_downs[i];
   return cuboids;
 }
 

@@ -11,7 +11,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kParallel = 0.99;       // cosine between a face's normal and that of a contact
-constexpr double kClosable = 2.0;        // tolerances: deeper overlaps are left to the fit
+constexpr double kClosable = 2.0;        // tolerances
 constexpr double kMostShrink = 0.3;      // of the size as fitted, by one face
 constexpr double kHiddenFreedom = 100.0; // variance of a face that was moved, against 1 of a seen one
 
@@ -40,7 +40,7 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
     const auto on_b = face_towards(arrangement.boxes[touch.b - problem.supports_count()], -n);
     const auto on_a = problem.is_support(touch.a) ? std::nullopt : face_towards(arrangement.boxes[touch.a - problem.supports_count()], n);
     if (!on_b || (!problem.is_support(touch.a) && !on_a)) continue;
-    if (std::abs(touch.interface.gap) > kClosable * problem.pair_tolerance(touch.a, touch.b)) continue;
+    if (touch.interface.gap > kClosable * problem.pair_tolerance(touch.a, touch.b)) continue;
     rows.push_back({on_a ? index(touch.a, *on_a) : -1, index(touch.b, *on_b)});
     gaps.push_back(touch.interface.gap);
   }

@@ -64,6 +64,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   Summary& summary = result.summary;
   const DepthView view(frame, result.T_world_camera, options.noise);
   Problem problem;
+  Rooms rooms;
   problem.friction = options.friction;
   problem.stable_residual = options.stable_residual;
   problem.push = options.push;
@@ -82,7 +83,8 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     problem.tolerance = tolerance;
     assume_thickness(view, find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
     close_hidden_gaps(find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
-    problem.hypotheses = propose_contacts(problem, find_rooms(view, problem.cuboids, tolerance, kFarthest));
+    rooms = find_rooms(view, problem.cuboids, tolerance, kFarthest);
+    problem.hypotheses = propose_contacts(problem, rooms);
     summary.counts.emplace_back("cuboids", result.cuboids.size());
     summary.counts.emplace_back("hypotheses", problem.hypotheses.size());
   }
@@ -114,7 +116,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   Arrangement closed = arrangement;
   close_contacts(problem, touching_pairs(problem, arrangement), closed);
   if (stands(problem, choice, closed) || !stands(problem, choice, arrangement)) arrangement = std::move(closed);
-  lower_residual(problem, choice.held, arrangement, context);
+  lower_residual(problem, rooms, choice.held, arrangement, context);
   describe(problem, choice, arrangement, result);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {

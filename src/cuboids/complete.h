@@ -42,7 +42,7 @@ std::vector<double> contact_tolerance(const DepthView& view, const std::vector<C
 void close_contacts(const Problem& problem, const std::vector<Touch>& touches, Arrangement& arrangement);
 
 /// Lowers the residual by small moves of faces: hidden ones within their rooms, seen ones within noise (Eq. 4.4).
-void lower_residual(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+void lower_residual(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, Arrangement& arrangement, Context& context);
 
 /// From boxes around what is visible (`result.cuboids`) to a scene that stands.
 void complete_boxes(const RgbdFrame& frame, const Options& options, Context& context, Completion& result);

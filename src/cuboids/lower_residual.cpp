@@ -8,31 +8,40 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kGoodResidual = 1e-4;
-constexpr int kSteps = 12;
+constexpr double kGoodResidual = 1e-6;
+constexpr int kSteps = 30;
 constexpr double kMostShrink = 0.3;  // of a size, by one face
+constexpr double kHidden = 2.0;  // tolerances: a face with less room is one that was seen
 constexpr double kProbe = 1e-4;  // m, of the derivative
 
-/// An arrangement with its balance.
+/// An arrangement with its balance at rest and under pushes.
 struct State {
   Arrangement arrangement;
-  std::vector<Touch> touches;
   Structure structure;
-  Balance balance;
+  std::vector<Balance> balances;  ///< one a load
+  double residual = 0;            ///< the largest of them
+
+  double motion(int body) const {
+    double largest = 0;
+    for (const Balance& b : balances) largest = std::max(largest, b.motion[body].norm());
+    return largest;
+  }
 };
 
 State state_of(const Problem& problem, const std::vector<char>& held, Arrangement arrangement) {
-  State s{std::move(arrangement), {}, {}, {}};
-  s.touches = touching_pairs(problem, s.arrangement);
-  s.structure = structure_of(problem, s.arrangement, s.touches, held);
-  s.balance = balance(s.structure.bodies, s.structure.contacts);
+  State s{std::move(arrangement), {}, {}, 0.0};
+  s.structure = structure_of(problem, s.arrangement, touching_pairs(problem, s.arrangement), held);
+  for (const Vec3& load : load_cases(problem.push)) {
+    s.balances.push_back(balance(s.structure.bodies, s.structure.contacts, load));
+    s.residual = std::max(s.residual, s.balances.back().residual);
+  }
   return s;
 }
 
-/// Sum over bodies of the squared unbalanced force and torque, scaled, if given forces act on a structure.
-double energy(const Structure& structure, const std::vector<Vec3>& forces) {
+/// Sum over bodies of the squared unbalanced force and torque, scaled, if given forces act on a structure under a load.
+double energy(const Structure& structure, const Vec3& load, const std::vector<Vec3>& forces) {
   std::vector<Vec3> force(structure.bodies.size()), torque(structure.bodies.size(), Vec3::Zero());
-  for (std::size_t i = 0; i < force.size(); ++i) force[i] = Vec3(0, 0, -structure.bodies[i].weight);
+  for (std::size_t i = 0; i < force.size(); ++i) force[i] = structure.bodies[i].weight * load;
   for (std::size_t c = 0; c < structure.contacts.size(); ++c) {
     const ContactPoint& contact = structure.contacts[c];
     force[contact.a] -= forces[c];
@@ -46,6 +55,14 @@ double energy(const Structure& structure, const std::vector<Vec3>& forces) {
     if (body.is_static) continue;
     sum += (force[i] / body.weight).squaredNorm() + (torque[i] / (body.weight * body.half_size)).squaredNorm();
   }
+  return sum;
+}
+
+/// The same summed over all loads, with the forces of a state.
+double energy(const Problem& problem, const Structure& structure, const State& state) {
+  const std::vector<Vec3> loads = load_cases(problem.push);
+  double sum = 0.0;
+  for (std::size_t k = 0; k < loads.size(); ++k) sum += energy(structure, loads[k], state.balances[k].forces);
   return sum;
 }
 
@@ -63,12 +80,12 @@ std::vector<Extension> gradient(const Problem& problem, const std::vector<char>&
   for (std::size_t i = 0; i < out.size(); ++i) {
     const int body = problem.supports_count() + static_cast<int>(i);
     const int group = s.structure.group[body];
-    if (s.structure.bodies[group].is_static || s.balance.motion[group].norm() < kGoodResidual) continue;
+    if (s.structure.bodies[group].is_static || s.motion(group) < kGoodResidual) continue;
     for (int face = 0; face < 6; ++face) {
       const Arrangement probe = with_face(problem, s.arrangement, static_cast<int>(i), face, kProbe);
       const Structure there = structure_of(problem, probe, touching_pairs(problem, probe), held);
       if (there.contacts.size() != s.structure.contacts.size()) continue;
-      out[i][face] = (energy(there, s.balance.forces) - energy_now) / kProbe;
+      out[i][face] = (energy(problem, there, s) - energy_now) / kProbe;
     }
   }
   return out;
@@ -76,12 +93,12 @@ std::vector<Extension> gradient(const Problem& problem, const std::vector<char>&
 
 }  // namespace
 
-void lower_residual(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
+void lower_residual(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
   State now = state_of(problem, held, arrangement);
   const std::vector<Extension> start = arrangement.extension;
-  for (int step = 0; step < kSteps && now.balance.residual > kGoodResidual; ++step) {
+  for (int step = 0; step < kSteps && now.residual > kGoodResidual; ++step) {
     context.check();
-    const double before = energy(now.structure, now.balance.forces);
+    const double before = energy(problem, now.structure, now);
     const std::vector<Extension> slope = gradient(problem, held, now, before);
     double squared = 0.0;
     for (const Extension& e : slope)
@@ -93,17 +110,18 @@ void lower_residual(const Problem& problem, const std::vector<char>& held, Arran
       for (std::size_t i = 0; i < slope.size(); ++i)
         for (int face = 0; face < 6; ++face) {
           if (slope[i][face] == 0.0) continue;
-          // Newton's step along the gradient for an energy whose least is 0; faces that were not moved stay within noise.
-          const bool hidden = start[i][face] > problem.tolerance[i];
-          const double freedom = hidden ? 4.0 * problem.tolerance[i] : 0.5 * problem.tolerance[i];
+          // Newton's step along the gradient for an energy whose least is 0; faces that were seen stay within noise.
+          const double tolerance = problem.tolerance[i], hidden = rooms[i][face] - start[i][face];
+          const double inward = start[i][face] > tolerance ? 4.0 * tolerance : 0.5 * tolerance;
+          const double outward = hidden > kHidden * tolerance ? hidden : 0.5 * tolerance;
           const double wanted = now.arrangement.extension[i][face] - share * 2.0 * before / squared * slope[i][face];
-          const double allowed = std::clamp(wanted, start[i][face] - freedom, start[i][face] + freedom);
+          const double allowed = std::clamp(wanted, start[i][face] - inward, start[i][face] + outward);
           next = with_face(problem, std::move(next), static_cast<int>(i), face, allowed - next.extension[i][face]);
         }
       close_contacts(problem, touching_pairs(problem, next), next);
       if (penetrates(problem, next)) continue;
       State there = state_of(problem, held, std::move(next));
-      if (energy(there.structure, there.balance.forces) < 0.98 * before) {
+      if (energy(problem, there.structure, there) < 0.98 * before) {
         now = std::move(there);
         better = true;
       }

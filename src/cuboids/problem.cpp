@@ -138,6 +138,16 @@ bool penetrates(const Problem& problem, const Arrangement& arrangement) {
   return false;
 }
 
+std::vector<Vec3> load_cases(double push) {
+  constexpr int kSides = 8;
+  std::vector<Vec3> cases = {-Vec3::UnitZ()};
+  for (int i = 0; i < kSides && push > 0.0; ++i) {
+    const double angle = 2.0 * kPi * i / kSides;
+    cases.emplace_back(push * std::cos(angle), push * std::sin(angle), -1.0);
+  }
+  return cases;
+}
+
 Structure structure_of(const Problem& problem, const Arrangement& arrangement, const std::vector<Touch>& touches,
                        const std::vector<char>& held) {
   std::vector<Body> bodies(problem.bodies());

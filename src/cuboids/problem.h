@@ -75,6 +75,9 @@ std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arr
 /// True if a pair of bodies overlaps by more than its tolerance, and more than the initial boxes did.
 bool penetrates(const Problem& problem, const Arrangement& arrangement);
 
+/// Accelerations (g) that an arrangement must bear: gravity alone, then with a push from each of eight sides.
+std::vector<Vec3> load_cases(double push);
+
 /// The arrangement as statics sees it: fixed bodies merged.
 struct Structure {
   std::vector<int> group;  ///< a body: which of `bodies` it belongs to

@@ -41,17 +41,6 @@ static Certificate certificate_of(const Search& s, Collapse collapse) {
   return c;
 }
 
-/// Gravity alone, then with a push from each side.
-static std::vector<Vec3> load_cases(double push) {
-  constexpr int kSides = 8;
-  std::vector<Vec3> cases = {-Vec3::UnitZ()};
-  for (int i = 0; i < kSides && push > 0.0; ++i) {
-    const double angle = 2.0 * kPi * i / kSides;
-    cases.emplace_back(push * std::cos(angle), push * std::sin(angle), -1.0);
-  }
-  return cases;
-}
-
 static std::vector<int> most_moving(const Search& s, const Structure& structure, const Balance& b) {
   double fastest = 0.0;
   for (const Vec6& motion : b.motion) fastest = std::max(fastest, motion.norm());
