@@ -66,6 +66,7 @@ RefereeScore ask_referee(const Completion& result, const EvaluateOptions& option
   }
   for (const Contact& contact : result.contacts)
     if (contact.kind == ContactKind::fixed) scene.fixed.emplace_back(index.at(contact.a), index.at(contact.b));
+  for (const int id : result.unsupported) scene.fixed.emplace_back(-1, index.at(id));
   const std::vector<double> moved = simulate(scene, -Vec3::UnitZ(), options.seconds, context);
   RefereeScore score;
   for (std::size_t i = 0; i < moved.size(); ++i) {

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cuboids/complete.h"
 
@@ -9,7 +10,8 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kGoodResidual = 1e-6;
-constexpr int kSteps = 30;
+constexpr int kSteps = 30, kRounds = 8;
+constexpr double kBetter = 0.9;  // of the energy: a step that leaves more is not worth its volume
 constexpr double kMostShrink = 0.3;  // of a size, by one face
 constexpr double kHidden = 2.0;  // tolerances: a face with less room is one that was seen
 constexpr double kProbe = 1e-4;  // m, of the derivative
@@ -91,6 +93,40 @@ std::vector<Extension> gradient(const Problem& problem, const std::vector<char>&
   return out;
 }
 
+/// Where no small step helps any more: one hidden face after the other grows, the one that helps most, by the least
+/// that does.
+State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, State now, Context& context) {
+  for (int round = 0; round < kRounds && now.residual > kGoodResidual; ++round) {
+    std::vector<char> is_near(now.structure.bodies.size(), 0);
+    const auto moves = [&](int group) { return !now.structure.bodies[group].is_static && now.motion(group) > kGoodResidual; };
+    for (const ContactPoint& c : now.structure.contacts)
+      if (moves(c.a) || moves(c.b)) is_near[c.a] = is_near[c.b] = 1;
+    double least = kBetter * energy(problem, now.structure, now);
+    std::optional<State> best;
+    for (std::size_t i = 0; i < problem.cuboids.size(); ++i) {
+      context.check();
+      const double tolerance = problem.tolerance[i];
+      if (!is_near[now.structure.group[problem.supports_count() + i]]) continue;
+      for (int face = 0; face < 6; ++face) {
+        if (rooms[i][face] <= kHidden * tolerance) continue;
+        for (double step = tolerance; step <= rooms[i][face] - now.arrangement.extension[i][face]; step *= 2.0) {
+          Arrangement next = with_face(problem, now.arrangement, static_cast<int>(i), face, step);
+          close_contacts(problem, touching_pairs(problem, next), next);
+          if (penetrates(problem, next)) break;
+          State there = state_of(problem, held, std::move(next));
+          const double left = energy(problem, there.structure, there);
+          if (left >= least) continue;
+          least = kBetter * left;
+          best = std::move(there);
+        }
+      }
+    }
+    if (!best) break;
+    now = std::move(*best);
+  }
+  return now;
+}
+
 }  // namespace
 
 void lower_residual(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
@@ -128,7 +164,7 @@ void lower_residual(const Problem& problem, const Rooms& rooms, const std::vecto
     }
     if (!better) break;
   }
-  arrangement = std::move(now.arrangement);
+  arrangement = grow_hidden_faces(problem, rooms, held, std::move(now), context).arrangement;
 }
 
 }  // namespace unseen::cuboids

@@ -34,7 +34,7 @@ namespace {
 
 constexpr double kStep = 1e-3, kGravity = 9.81;
 constexpr double kSlab = 0.02;  // m, thickness of a support that has a lower side
-
+constexpr double kApart = 5e-6;  // m: faces that coincide exactly give MuJoCo 2.2 contacts of depth −0.6 m
 
 /// The rigid body that each box belongs to: the lowest index of those fixed together; −1 = a support.
 std::vector<int> bodies_of(const RefereeScene& scene) {
@@ -102,7 +102,7 @@ std::string model_text(const RefereeScene& scene, const std::vector<int>& body, 
     for (std::size_t i = 0; i < scene.boxes.size(); ++i)
       if (body[i] == of)
         fmt::format_to(out, "<geom name=\"box{}\" type=\"box\" size=\"{}\" pos=\"{}\" quat=\"{}\" mass=\"{}\"/>", i,
-                       vector_text(scene.boxes[i].half_size), vector_text(scene.boxes[i].center),
+                       vector_text(scene.boxes[i].half_size.array() - kApart), vector_text(scene.boxes[i].center),
                        quaternion_text(scene.boxes[i].axes), scene.masses[i]);
   };
   add_boxes(-1);
