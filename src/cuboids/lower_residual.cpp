@@ -114,7 +114,7 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::v
           close_contacts(problem, touching_pairs(problem, next), next);
           if (penetrates(problem, next)) break;
           State there = state_of(problem, held, std::move(next));
-          const double left = energy(problem, there.structure, there);
+          const double left = std::max(energy(problem, there.structure, there), kGoodResidual * kGoodResidual);
           if (left >= least) continue;
           least = kBetter * left;
           best = std::move(there);

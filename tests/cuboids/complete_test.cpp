@@ -9,30 +9,12 @@
 #include <set>
 
 #include "cuboids/hypotheses.h"
+#include "box_problems.h"
 #include "unseen/cuboids/cuboids.h"
 #include "unseen/cuboids/synth.h"
 
 namespace unseen::cuboids {
 namespace {
-
-OrientedBox box(const Vec3& center, const Vec3& size, double yaw = 0.0) {
-  return {center, Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix(), 0.5 * size};
-}
-
-Cuboid cuboid(const OrientedBox& b) {
-  Cuboid c;
-  c.initial = c.box = b;
-  c.visible_points = 1000;
-  return c;
-}
-
-Problem problem_of(const std::vector<OrientedBox>& boxes) {
-  Problem problem;
-  problem.supports.push_back({0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}});
-  for (const OrientedBox& b : boxes) problem.cuboids.push_back(cuboid(b));
-  problem.tolerance.assign(boxes.size(), 0.006);
-  return problem;
-}
 
 TEST(Reach, IsTheDistanceToTheNearestPointInTheWay) {
   const OrientedBox mover = box({0, 0, 1}, {0.2, 0.2, 0.2});
@@ -46,34 +28,6 @@ TEST(Reach, IsTheDistanceToTheNearestPointInTheWay) {
   EXPECT_FALSE(reach(mover, 5, solid_of(box({0, 0, 0.3}, {0.1, 0.1, 0.2})), 0.0));  // behind
   EXPECT_FALSE(reach(mover, 4, solid_of(box({0.5, 0, 0.3}, {0.1, 0.1, 0.2})), 0.0));  // beside
   EXPECT_FALSE(reach(mover, 5, Support{0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}}));
-}
-
-TEST(CloseContacts, LeavesNoGapAndNoOverlap) {
-  const Problem problem = problem_of({box({0, 0, 0.102}, {0.3, 0.3, 0.2}), box({0.02, 0, 0.25}, {0.2, 0.2, 0.1}, 0.4)});
-  Arrangement a = arrange(problem, {});
-  close_contacts(problem, touching_pairs(problem, a), a);
-  const auto touches = touching_pairs(problem, a);
-  ASSERT_EQ(touches.size(), 2u);
-  for (const Touch& touch : touches) EXPECT_NEAR(touch.interface.gap, 0.0, 1e-5);
-  EXPECT_NEAR(a.boxes[1].half_size.x(), 0.1, 1e-9);  // what no contact asks for stays
-}
-
-TEST(LowerResidual, MovesAnEdgeUnderTheCentreOfMass) {
-  // The upper box hangs over by half a millimetre too much; noise leaves room for that.
-  const Problem problem = problem_of({box({0, 0, 0.1}, {0.1, 0.1, 0.2}), box({0.0505, 0, 0.25}, {0.1, 0.1, 0.1})});
-  const std::vector<char> held(3, 0);
-  const auto residual = [&](const Arrangement& a) {
-    const Structure s = structure_of(problem, a, touching_pairs(problem, a), held);
-    return balance(s.bodies, s.contacts).residual;
-  };
-  Arrangement a = arrange(problem, {});
-  const double before = residual(a);
-  ASSERT_GT(before, 1e-3);
-  Context context;
-  lower_residual(problem, held, a, context);
-  EXPECT_LT(residual(a), 0.2 * before);
-  for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_LT((a.boxes[i].half_size - problem.cuboids[i].initial.half_size).cwiseAbs().maxCoeff(), 0.007);
 }
 
 TEST(Search, DoesNotDependOnTurnsAndMirrors) {
@@ -161,7 +115,7 @@ TEST_P(Stacks, HaveTheirTrueContactsAndStand) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Families, Stacks, testing::Values("tower", "twisted", "shelf"));
+INSTANTIATE_TEST_SUITE_P(Families, Stacks, testing::Values("tower", "twisted", "bridge", "cyclic", "shelf"));
 
 TEST(HiddenLegs, AreCompletedBySymmetryWhereTheyAre) {
   SynthOptions options;

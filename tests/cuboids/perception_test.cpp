@@ -139,6 +139,19 @@ TEST(Boxes, ASlantedOneGetsItsOwnAxes) {
   EXPECT_LT(size_error(p.fitted[0].box, plank), 0.01);
 }
 
+TEST(Boxes, ALongOneThatLeansALittleLeansSo) {
+  for (const double lean : {0.0, 4.0, 8.0}) {
+    Scene scene;
+    OrientedBox plank = upright(0, 0.8, 0.06, {0.5, 0.07, 0.035}, 25.0);
+    plank.axes = plank.axes * Eigen::AngleAxisd(radians(lean), Vec3::UnitY()).toRotationMatrix();
+    scene.boxes = {plank};
+    const Perceived p = perceive(render(scene));
+    ASSERT_EQ(p.fitted.size(), 1u) << lean;
+    EXPECT_LT(degrees(line_angle(p.fitted[0].box.axes.col(2), plank.axes.col(2))), 1.0) << lean;
+    if (lean == 0.0) EXPECT_EQ(p.fitted[0].box.axes(2, 2), 1.0);  // level, not nearly so
+  }
+}
+
 TEST(Boxes, AnLShapedThingBecomesTwoSlabsOutOfFreeSpace) {
   Scene scene;
   scene.boxes = {upright(-0.05, 0.8, 0, {0.1, 0.1, 0.2}, 0), upright(0.05, 0.8, 0, {0.1, 0.1, 0.05}, 0)};

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// What is done to boxes before and after the search, on boxes whose right answer is known.
+#include <gtest/gtest.h>
+
+#include "box_problems.h"
+#include "cuboids/complete.h"
+
+namespace unseen::cuboids {
+namespace {
+
+TEST(CloseContacts, LeavesNoGapAndNoOverlap) {
+  const Problem problem = problem_of({box({0, 0, 0.102}, {0.3, 0.3, 0.2}), box({0.02, 0, 0.25}, {0.2, 0.2, 0.1}, 0.4)});
+  Arrangement a = arrange(problem, {});
+  close_contacts(problem, touching_pairs(problem, a), a);
+  const auto touches = touching_pairs(problem, a);
+  ASSERT_EQ(touches.size(), 2u);
+  for (const Touch& touch : touches) EXPECT_NEAR(touch.interface.gap, 0.0, 1e-5);
+  EXPECT_NEAR(a.boxes[1].half_size.x(), 0.1, 1e-9);  // what no contact asks for stays
+}
+
+TEST(LowerResidual, MovesAnEdgeUnderTheCentreOfMass) {
+  // The upper box hangs over by half a millimetre too much; noise leaves room for that.
+  Problem problem = problem_of({box({0, 0, 0.1}, {0.1, 0.1, 0.2}), box({0.0505, 0, 0.25}, {0.1, 0.1, 0.1})});
+  problem.push = 0.0;
+  const std::vector<char> held(3, 0);
+  const auto residual = [&](const Arrangement& a) {
+    const Structure s = structure_of(problem, a, touching_pairs(problem, a), held);
+    return balance(s.bodies, s.contacts).residual;
+  };
+  Arrangement a = arrange(problem, {});
+  const double before = residual(a);
+  ASSERT_GT(before, 1e-3);
+  Context context;
+  lower_residual(problem, Rooms(2, Extension{}), held, a, context);
+  EXPECT_LT(residual(a), 0.2 * before);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((a.boxes[i].half_size - problem.cuboids[i].initial.half_size).cwiseAbs().maxCoeff(), 0.007);
+}
+
+TEST(LowerResidual, GrowsAHiddenFaceUntilThePushIsBorne) {
+  // At rest the upper box stands; a push of 0.1 g at 0.05 m tips it over the lower one's edge, 2 mm from under its centre.
+  const Problem problem = problem_of({box({0, 0, 0.1}, {0.1, 0.1, 0.2}), box({0.048, 0, 0.25}, {0.1, 0.1, 0.1})});
+  const std::vector<char> held(3, 0);
+  Rooms rooms(2, Extension{});
+  rooms[0][1] = 0.2;
+  Arrangement a = arrange(problem, {});
+  Context context;
+  lower_residual(problem, rooms, held, a, context);
+  const double edge = a.boxes[0].center.x() + a.boxes[0].half_size.x();
+  EXPECT_GT(edge, a.boxes[1].center.x() + 0.1 * 0.05 - 1e-3);
+  EXPECT_LT(edge, 0.1);  // not all the room
+  const Structure s = structure_of(problem, a, touching_pairs(problem, a), held);
+  EXPECT_GT(margin(s.bodies, s.contacts, 1e-6), 0.09);
+}
+
+TEST(TouchingPairs, DoNotReachThroughAThirdBody) {
+  Problem problem = problem_of({box({0, 0, 0.05}, {0.2, 0.2, 0.1}), box({0, 0, 0.105}, {0.4, 0.4, 0.01}), box({0, 0, 0.16}, {0.1, 0.1, 0.1})});
+  problem.tolerance.assign(3, 0.02);
+  std::vector<std::array<int, 2>> pairs;
+  for (const Touch& touch : touching_pairs(problem, arrange(problem, {}))) pairs.push_back({touch.a, touch.b});
+  EXPECT_EQ(pairs, (std::vector<std::array<int, 2>>{{0, 1}, {1, 2}, {2, 3}}));
+}
+
+TEST(CloseHiddenGaps, MovesHiddenFacesOnlyAndToTheNearestBody) {
+  // A gap of 12 mm over the ground, with a tolerance of 6.
+  const std::vector<OrientedBox> boxes = {box({0, 0, 0.062}, {0.1, 0.1, 0.1}), box({0.5, 0, 0.004}, {0.3, 0.3, 0.008}),
+                                          box({0.5, 0, 0.06}, {0.1, 0.1, 0.1})};
+  Rooms rooms(3, Extension{0.009, 0.009, 0.009, 0.009, 0.009, 0.009});
+  Problem seen = problem_of(boxes);
+  close_hidden_gaps(rooms, seen);
+  EXPECT_NEAR(seen.cuboids[0].initial.half_size.z(), 0.05, 1e-12);
+  rooms[0][4] = rooms[2][4] = 0.5;
+  Problem hidden = problem_of(boxes);
+  close_hidden_gaps(rooms, hidden);
+  EXPECT_NEAR(hidden.cuboids[0].initial.half_size.z(), 0.056, 1e-12);
+  EXPECT_NEAR(hidden.cuboids[0].initial.center.z(), 0.056, 1e-12);
+  // The third stands on the second already: it does not go on to the ground.
+  EXPECT_NEAR(hidden.cuboids[2].initial.half_size.z(), 0.05, 1e-12);
+}
+
+}  // namespace
+}  // namespace unseen::cuboids
