@@ -66,6 +66,12 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
 
   const double finest = kFinestVoxel * radius_of(seen, parts);
   std::vector<OrientedBox> set_downs;
+  const auto object_of = [&](const ObjectPart& part) {
+    const auto first = std::find_if(parts.begin(), parts.end(), [&](const ObjectPart& other) {
+      return &other == &part || (!part.label.empty() && other.label == part.label);
+    });
+    return static_cast<int>(first - parts.begin());
+  };
   const auto add = [&](const ObjectPart& part, std::span<const int> points, const OrientedBox& box) {
     if (box.half_size.maxCoeff() > kFarthest)
       throw InputError(frame.name, "depth", "a box of over 100 m", "metres after division by depth_scale");
@@ -74,6 +80,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     cuboid.box = cuboid.initial = box;
     cuboid.visible_points = points.size();
     cuboid.label = part.label;
+    cuboid.object = object_of(part);
     const auto density = frame.densities.find(part.label);
     cuboid.density = density == frame.densities.end() ? options.density : density->second;
     cuboids.push_back(cuboid);

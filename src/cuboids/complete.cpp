@@ -31,6 +31,11 @@ void describe(const Problem& problem, const Choice& choice, const Arrangement& a
         contact.direction = touch.interface.normal;
         contact.points = touch.interface.points;
       }
+    if (contact.points.empty()) {  // pieces of one object
+      const Vec3 &first = arrangement.boxes[a - problem.supports_count()].center, &second = arrangement.boxes[c - problem.supports_count()].center;
+      contact.direction = (second - first).normalized();
+      contact.points = {0.5 * (first + second)};
+    }
     result.contacts.push_back(std::move(contact));
   }
   std::vector<int> contact_of_touch(touches.size(), -1);
@@ -81,6 +86,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     problem.supports = result.supports;
     problem.cuboids = result.cuboids;
     problem.tolerance = tolerance;
+    problem.joints = joints_of(problem);
     assume_thickness(view, find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
     close_hidden_gaps(find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
     rooms = find_rooms(view, problem.cuboids, tolerance, kFarthest);

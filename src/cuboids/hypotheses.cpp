@@ -218,7 +218,7 @@ std::vector<Hypothesis> propose_contacts(const Problem& problem, const Rooms& ro
   for (const Touch& touch : touching_pairs(problem, initial)) touches[touch.a][touch.b] = 1;
   for (int a = 0; a < problem.bodies(); ++a)
     for (int b = std::max(a + 1, problem.supports_count()); b < problem.bodies(); ++b)
-      propose_pair(p, a, b, touches[a][b]);
+      if (!problem.is_one_object(a, b)) propose_pair(p, a, b, touches[a][b]);
   return std::move(p.found);
 }
 

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kFewestFacePoints = 30;
 constexpr std::size_t kFewestPoints = 80;     // of an object
+constexpr double kSmallestShare = 0.003;        // of the points of all objects, where nobody says what an object is
 constexpr std::size_t kFewPoints = 500;         // so few may be a strip along an edge
 constexpr double kStrip = 8.0;                 // widths, in spacing
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
@@ -133,8 +134,8 @@ std::vector<std::vector<int>> components(const Observation& seen, const std::vec
 }
 
 /// Too few points, or no farther from the supports than their own noise.
-bool is_debris(const Observation& seen, const std::vector<int>& part) {
-  if (part.size() < kFewestPoints) return true;
+bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_t fewest) {
+  if (part.size() < fewest) return true;
   if (part.size() < kFewPoints) {
     Vec3 mean = Vec3::Zero();
     Mat3 second = Mat3::Zero();
@@ -186,8 +187,11 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   context.check();
   std::vector<ObjectPart> parts;
   std::size_t debris = 0;
-  for (std::vector<int>& points : components(seen, object)) {
-    if (is_debris(seen, points)) {
+  std::vector<std::vector<int>> pieces = components(seen, object);
+  const std::size_t total = std::accumulate(pieces.begin(), pieces.end(), std::size_t{0}, [](std::size_t n, const auto& p) { return n + p.size(); });
+  const std::size_t fewest = std::max(kFewestPoints, masked || drawn ? 0 : static_cast<std::size_t>(kSmallestShare * static_cast<double>(total)));
+  for (std::vector<int>& points : pieces) {
+    if (is_debris(seen, points, fewest)) {
       ++debris;
       continue;
     }

@@ -3,12 +3,14 @@
 #include "cuboids/problem.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace unseen::cuboids {
 namespace {
 
 constexpr double kGravity = 9.81;  // m/s²
+constexpr double kFarPieces = 0.1;  // m: farther pieces of an object are apart by their centres
 constexpr double kFilled = 0.25;   // of a gap: so deep its middle lies in what fills it
 
 double radius(const OrientedBox& box) { return box.half_size.norm(); }
@@ -67,8 +69,36 @@ double Problem::pair_tolerance(int a, int b) const {
   return is_support(a) ? second : std::max(tolerance[a - supports_count()], second);
 }
 
+std::vector<std::array<int, 2>> joints_of(const Problem& problem) {
+  std::vector<std::array<int, 2>> joints;
+  std::vector<char> is_joined(problem.bodies(), 0);
+  const auto distance = [&](int a, int b) {
+    const auto meet = interface_of(solid_of(problem.cuboid(a).initial), solid_of(problem.cuboid(b).initial), kFarPieces);
+    return meet ? meet->gap : (problem.cuboid(a).initial.center - problem.cuboid(b).initial.center).norm();
+  };
+  for (int first = problem.supports_count(); first < problem.bodies(); ++first) {
+    if (is_joined[first]) continue;
+    std::vector<int> joined = {first}, apart;
+    for (int b = first + 1; b < problem.bodies(); ++b)
+      if (problem.is_one_object(first, b)) apart.push_back(b);
+    while (!apart.empty()) {
+      std::array<int, 2> nearest{};
+      double least = std::numeric_limits<double>::infinity();
+      for (const int a : joined)
+        for (const int b : apart)
+          if (const double d = distance(a, b); d < least) least = d, nearest = {a, b};
+      joints.push_back({std::min(nearest[0], nearest[1]), std::max(nearest[0], nearest[1])});
+      joined.push_back(nearest[1]);
+      is_joined[nearest[1]] = 1;
+      std::erase(apart, nearest[1]);
+    }
+  }
+  return joints;
+}
+
 Arrangement arrange(const Problem& problem, const std::vector<int>& chosen) {
   Arrangement out;
+  out.fixed = problem.joints;
   out.extension.assign(problem.cuboids.size(), Extension{});
   for (const int h : chosen) {
     const Hypothesis& hypothesis = problem.hypotheses[h];
@@ -108,7 +138,7 @@ std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arr
   for (int a = 0; a < problem.bodies(); ++a)
     for (int b = std::max(a + 1, first_cuboid); b < problem.bodies(); ++b) {
       const double tolerance = problem.pair_tolerance(a, b);
-      if (!may_meet(problem, arrangement, a, b, tolerance)) continue;
+      if (problem.is_one_object(a, b) || !may_meet(problem, arrangement, a, b, tolerance)) continue;
       const ConvexSolid& second = arrangement.solids[b - first_cuboid];
       auto meet = problem.is_support(a) ? interface_of(problem.supports[a], second, tolerance)
                                         : interface_of(arrangement.solids[a - first_cuboid], second, tolerance);
@@ -127,7 +157,7 @@ bool penetrates(const Problem& problem, const Arrangement& arrangement) {
     for (int a = 0; a < b; ++a) {
       const bool grown = arrangement.boxes[i].volume() > problem.cuboids[i].initial.volume() ||
                          (!problem.is_support(a) && arrangement.boxes[a - first_cuboid].volume() > problem.cuboid(a).initial.volume());
-      if (!grown || !may_meet(problem, arrangement, a, b, 0.0)) continue;
+      if (!grown || problem.is_one_object(a, b) || !may_meet(problem, arrangement, a, b, 0.0)) continue;
       const double now = overlap(problem, arrangement.solids, a, b);
       if (now <= problem.pair_tolerance(a, b)) continue;
       if (!problem.is_support(a)) initial[a - first_cuboid] = solid_of(problem.cuboid(a).initial);

@@ -38,6 +38,7 @@ struct Problem {
   std::vector<Support> supports;
   std::vector<Cuboid> cuboids;          ///< with their initial boxes
   std::vector<double> tolerance;        ///< m, a cuboid: contacts within it count as touching
+  std::vector<std::array<int, 2>> joints;  ///< pairs of bodies that hold an object's pieces together
   std::vector<Hypothesis> hypotheses;
   double friction = 0.7;
   double stable_residual = 0.05;
@@ -48,14 +49,20 @@ struct Problem {
   bool is_support(int body) const { return body < supports_count(); }
   const Cuboid& cuboid(int body) const { return cuboids[body - supports_count()]; }
   double pair_tolerance(int a, int b) const;
+  bool is_one_object(int a, int b) const {
+    return !is_support(a) && !is_support(b) && cuboid(a).object >= 0 && cuboid(a).object == cuboid(b).object;
+  }
 };
+
+/// Pairs that connect the pieces of every object, each to its nearest.
+std::vector<std::array<int, 2>> joints_of(const Problem& problem);
 
 /// A choice of hypotheses, and what follows from it.
 struct Arrangement {
   std::vector<Extension> extension;     ///< a cuboid
   std::vector<OrientedBox> boxes;       ///< a cuboid
   std::vector<ConvexSolid> solids;      ///< a cuboid
-  std::vector<std::array<int, 2>> fixed;  ///< pairs of bodies
+  std::vector<std::array<int, 2>> fixed;  ///< pairs of bodies, the joints among them
   double extended_volume = 0;           ///< m³
 };
 
@@ -70,7 +77,7 @@ struct Touch {
   int a = -1, b = -1;
   Interface interface;
 };
-/// All pairs within tolerance of each other, ordered.
+/// All pairs of different objects within tolerance of each other, ordered.
 std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arrangement);
 /// True if a pair of bodies overlaps by more than its tolerance, and more than the initial boxes did.
 bool penetrates(const Problem& problem, const Arrangement& arrangement);

@@ -33,6 +33,7 @@ std::vector<double> simulate(const RefereeScene&, const Vec3&, double, Context&)
 namespace {
 
 constexpr double kStep = 1e-3, kGravity = 9.81;
+constexpr int kStepsBetweenLooks = 10;
 constexpr double kSlab = 0.02;  // m, thickness of a support that has a lower side
 constexpr double kApart = 5e-6;  // m: faces that coincide exactly give MuJoCo 2.2 contacts of depth −0.6 m
 
@@ -142,24 +143,29 @@ OrientedBox place_of(const mjModel* model, const mjData* data, const RefereeScen
   return box;
 }
 
+/// Share of its longest side that the corner of a box that went farthest went.
+double move_of(const OrientedBox& from, const OrientedBox& to) {
+  const auto before = corners_of(from), after = corners_of(to);
+  double farthest = 0;
+  for (int k = 0; k < 8; ++k) farthest = std::max(farthest, (after[k] - before[k]).norm());
+  return farthest / (2.0 * from.half_size.maxCoeff());
+}
+
 }  // namespace
 
 bool has_referee() { return true; }
 
 std::vector<double> simulate(const RefereeScene& scene, const Vec3& down, double seconds, Context& context) {
+  mju_user_warning = [](const char*) {};  // else it writes a file beside the user's own
   const Model model = load(model_text(scene, bodies_of(scene), down));
   const State data(mj_makeData(model.get()), mj_deleteData);
+  std::vector<double> moved(scene.boxes.size(), 0.0);
   while (data->time < seconds) {
     context.check();
-    mj_step(model.get(), data.get());
-  }
-  mj_kinematics(model.get(), data.get());
-  std::vector<double> moved;
-  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
-    const auto from = corners_of(scene.boxes[i]), to = corners_of(place_of(model.get(), data.get(), scene, i));
-    double farthest = 0;
-    for (int k = 0; k < 8; ++k) farthest = std::max(farthest, (to[k] - from[k]).norm());
-    moved.push_back(farthest / (2.0 * scene.boxes[i].half_size.maxCoeff()));
+    for (int i = 0; i < kStepsBetweenLooks; ++i) mj_step(model.get(), data.get());
+    if (data->warning[mjWARN_BADQACC].number > 0) break;  // flung apart; MuJoCo has begun again by itself
+    mj_kinematics(model.get(), data.get());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = move_of(scene.boxes[i], place_of(model.get(), data.get(), scene, i));
   }
   return moved;
 }

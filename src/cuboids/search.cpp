@@ -20,7 +20,7 @@ Arrangement largest_arrangement(const Problem& problem) {
   std::vector<int> all(problem.hypotheses.size());
   for (std::size_t h = 0; h < all.size(); ++h) all[h] = static_cast<int>(h);
   Arrangement a = arrange(problem, all);
-  a.fixed.clear();
+  a.fixed = problem.joints;
   return a;
 }
 
@@ -161,6 +161,8 @@ Choice search_contacts(const Problem& problem, const Admissible& admissible, con
   for (int i = 0; i < problem.bodies(); ++i) parts.of.push_back(i);
   for (const Touch& touch : s.initial_touches)
     if (!problem.is_support(touch.a)) parts.join(touch.a, touch.b);
+
+  for (const auto& [a, b] : problem.joints) parts.join(a, b);
 
   std::map<std::vector<int>, std::pair<std::vector<int>, std::vector<char>>> solved;  // a part: hypotheses, unheld bodies
   Choice choice;

@@ -13,7 +13,7 @@ namespace {
 
 const double kHorizontal = std::cos(radians(10.0)), kVertical = std::sin(radians(10.0));
 const Vec3 kUsualUp = Vec3(0.0, -0.9, -0.43).normalized();  // of a camera held upright, looking a little down
-constexpr double kSmallestGroundShare = 0.2;  // of the largest horizontal area
+constexpr double kSmallestGroundShare = 0.2;  // of the largest horizontal area, or of its pixels
 constexpr double kCarryShare = 1.0 / 3.0;     // of what the surface that carries most carries
 constexpr double kCarryHeight = 0.5;          // m
 constexpr double kWallShare = 0.25;           // of the square of the scene's radius
@@ -262,9 +262,15 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up) {
 
   const Vec3 u = any_orthogonal(up), v = up.cross(u);
   for (Level& level : levels) set_outline(scan, level, u, v);
-  double largest = 0, most = 0;
-  for (const Level& level : levels) largest = std::max(largest, level.area);
-  std::erase_if(levels, [&](const Level& level) { return level.area < kSmallestGroundShare * largest; });
+  double largest = 0, most_pixels = 0, most = 0;
+  const auto pixels = [&](const Level& level) { return static_cast<double>(points_of(scan, level.faces).size()); };
+  for (const Level& level : levels) {
+    largest = std::max(largest, level.area);
+    most_pixels = std::max(most_pixels, pixels(level));
+  }
+  std::erase_if(levels, [&](const Level& level) {
+    return level.area < kSmallestGroundShare * largest && pixels(level) < kSmallestGroundShare * most_pixels;
+  });
   weigh_levels(scan, levels, u, v);
   for (const Level& level : levels) most = std::max(most, level.carried);
   const auto height = [&](const Level& level) { return up.dot(level.plane.project(Vec3::Zero())); };

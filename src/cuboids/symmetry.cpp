@@ -124,6 +124,7 @@ std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids,
         });
         if (taken || !is_hidden(view, hidden.initial)) continue;
         hidden.by_symmetry = true;
+        hidden.object = -1;
         hidden.visible_points = 0;
         cuboids.push_back(std::move(hidden));
         tolerance.push_back(tolerance[leg]);

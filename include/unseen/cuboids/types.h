@@ -30,6 +30,7 @@ struct Cuboid {
   std::size_t visible_points = 0;
   double density = 300.0;  ///< kg/m³
   std::string label;       ///< of the mask or stroke it came from, or empty
+  int object = -1;         ///< boxes with the same number are pieces of one thing, and rigid together; −1 = a thing of its own
   bool by_symmetry = false;  ///< wholly unseen, completed by symmetry (thesis Section 4.4.1)
 
   double mass() const { return density * box.volume(); }
