@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "cuboids/complete.h"
@@ -10,7 +11,9 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kGoodResidual = 1e-6;
-constexpr int kSteps = 30, kRounds = 8;
+constexpr int kSteps = 12, kRounds = 8;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+constexpr int kTrials = 200;
 constexpr double kBetter = 0.9;  // of the energy: a step that leaves more is not worth its volume
 constexpr double kMostShrink = 0.3;  // of a size, by one face
 constexpr double kHidden = 2.0;  // tolerances: a face with less room is one that was seen
@@ -19,9 +22,11 @@ constexpr double kProbe = 1e-4;  // m, of the derivative
 /// An arrangement with its balance at rest and under pushes.
 struct State {
   Arrangement arrangement;
+  std::vector<Touch> touches;
   Structure structure;
   std::vector<Balance> balances;  ///< one a load
   double residual = 0;            ///< the largest of them
+  double energy = 0;              ///< what is out of balance, squared and summed over bodies and loads
 
   double motion(int body) const {
     double largest = 0;
@@ -29,16 +34,6 @@ struct State {
     return largest;
   }
 };
-
-State state_of(const Problem& problem, const std::vector<char>& held, Arrangement arrangement) {
-  State s{std::move(arrangement), {}, {}, 0.0};
-  s.structure = structure_of(problem, s.arrangement, touching_pairs(problem, s.arrangement), held);
-  for (const Vec3& load : load_cases(problem.push)) {
-    s.balances.push_back(balance(s.structure.bodies, s.structure.contacts, load));
-    s.residual = std::max(s.residual, s.balances.back().residual);
-  }
-  return s;
-}
 
 /// Sum over bodies of the squared unbalanced force and torque, scaled, if given forces act on a structure under a load.
 double energy(const Structure& structure, const Vec3& load, const std::vector<Vec3>& forces) {
@@ -68,6 +63,21 @@ double energy(const Problem& problem, const Structure& structure, const State& s
   return sum;
 }
 
+/// None if its energy is above the limit.
+std::optional<State> state_of(const Problem& problem, const std::vector<char>& held, Arrangement arrangement, double limit) {
+  State s{std::move(arrangement), {}, {}, {}, 0.0, 0.0};
+  s.touches = touching_pairs(problem, s.arrangement);
+  s.structure = structure_of(problem, s.arrangement, s.touches, held);
+  for (const Vec3& load : load_cases(problem.push)) {
+    const std::vector<Vec3> start = s.balances.empty() ? std::vector<Vec3>{} : s.balances.front().forces;
+    s.balances.push_back(balance(s.structure.bodies, s.structure.contacts, load, start));
+    s.residual = std::max(s.residual, s.balances.back().residual);
+    s.energy += energy(s.structure, load, s.balances.back().forces);
+    if (s.energy >= limit) return std::nullopt;
+  }
+  return s;
+}
+
 Arrangement with_face(const Problem& problem, Arrangement a, int cuboid, int face, double move) {
   const double size = 2.0 * problem.cuboids[cuboid].initial.half_size[face / 2];
   a.extension[cuboid][face] = std::max(a.extension[cuboid][face] + move, -kMostShrink * size);
@@ -77,7 +87,7 @@ Arrangement with_face(const Problem& problem, Arrangement a, int cuboid, int fac
 }
 
 /// Derivative of the energy by each face, the forces kept (they are at their best, so theirs does not count).
-std::vector<Extension> gradient(const Problem& problem, const std::vector<char>& held, const State& s, double energy_now) {
+std::vector<Extension> gradient(const Problem& problem, const std::vector<char>& held, const State& s) {
   std::vector<Extension> out(problem.cuboids.size(), Extension{});
   for (std::size_t i = 0; i < out.size(); ++i) {
     const int body = problem.supports_count() + static_cast<int>(i);
@@ -85,9 +95,9 @@ std::vector<Extension> gradient(const Problem& problem, const std::vector<char>&
     if (s.structure.bodies[group].is_static || s.motion(group) < kGoodResidual) continue;
     for (int face = 0; face < 6; ++face) {
       const Arrangement probe = with_face(problem, s.arrangement, static_cast<int>(i), face, kProbe);
-      const Structure there = structure_of(problem, probe, touching_pairs(problem, probe), held);
+      const Structure there = structure_of(problem, probe, with_moved(problem, probe, s.touches, body), held);
       if (there.contacts.size() != s.structure.contacts.size()) continue;
-      out[i][face] = (energy(problem, there, s) - energy_now) / kProbe;
+      out[i][face] = (energy(problem, there, s) - s.energy) / kProbe;
     }
   }
   return out;
@@ -96,12 +106,13 @@ std::vector<Extension> gradient(const Problem& problem, const std::vector<char>&
 /// Where no small step helps any more: one hidden face after the other grows, the one that helps most, by the least
 /// that does.
 State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, State now, Context& context) {
+  int trials = 0;
   for (int round = 0; round < kRounds && now.residual > kGoodResidual; ++round) {
     std::vector<char> is_near(now.structure.bodies.size(), 0);
     const auto moves = [&](int group) { return !now.structure.bodies[group].is_static && now.motion(group) > kGoodResidual; };
     for (const ContactPoint& c : now.structure.contacts)
       if (moves(c.a) || moves(c.b)) is_near[c.a] = is_near[c.b] = 1;
-    double least = kBetter * energy(problem, now.structure, now);
+    double least = kBetter * now.energy;
     std::optional<State> best;
     for (std::size_t i = 0; i < problem.cuboids.size(); ++i) {
       context.check();
@@ -113,10 +124,10 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::v
           Arrangement next = with_face(problem, now.arrangement, static_cast<int>(i), face, step);
           close_contacts(problem, touching_pairs(problem, next), next);
           if (penetrates(problem, next)) break;
-          State there = state_of(problem, held, std::move(next));
-          const double left = std::max(energy(problem, there.structure, there), kGoodResidual * kGoodResidual);
-          if (left >= least) continue;
-          least = kBetter * left;
+          if (++trials > kTrials) return best ? *best : now;
+          auto there = state_of(problem, held, std::move(next), least);
+          if (!there) continue;
+          least = there->energy < kGoodResidual * kGoodResidual ? 0.0 : kBetter * there->energy;
           best = std::move(there);
         }
       }
@@ -130,12 +141,11 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::v
 }  // namespace
 
 void lower_residual(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
-  State now = state_of(problem, held, arrangement);
+  State now = *state_of(problem, held, arrangement, kNoLimit);
   const std::vector<Extension> start = arrangement.extension;
   for (int step = 0; step < kSteps && now.residual > kGoodResidual; ++step) {
     context.check();
-    const double before = energy(problem, now.structure, now);
-    const std::vector<Extension> slope = gradient(problem, held, now, before);
+    const std::vector<Extension> slope = gradient(problem, held, now);
     double squared = 0.0;
     for (const Extension& e : slope)
       for (const double g : e) squared += g * g;
@@ -150,15 +160,14 @@ void lower_residual(const Problem& problem, const Rooms& rooms, const std::vecto
           const double tolerance = problem.tolerance[i], hidden = rooms[i][face] - start[i][face];
           const double inward = start[i][face] > tolerance ? 4.0 * tolerance : 0.5 * tolerance;
           const double outward = hidden > kHidden * tolerance ? hidden : 0.5 * tolerance;
-          const double wanted = now.arrangement.extension[i][face] - share * 2.0 * before / squared * slope[i][face];
+          const double wanted = now.arrangement.extension[i][face] - share * 2.0 * now.energy / squared * slope[i][face];
           const double allowed = std::clamp(wanted, start[i][face] - inward, start[i][face] + outward);
           next = with_face(problem, std::move(next), static_cast<int>(i), face, allowed - next.extension[i][face]);
         }
       close_contacts(problem, touching_pairs(problem, next), next);
       if (penetrates(problem, next)) continue;
-      State there = state_of(problem, held, std::move(next));
-      if (energy(problem, there.structure, there) < 0.98 * before) {
-        now = std::move(there);
+      if (auto there = state_of(problem, held, std::move(next), 0.98 * now.energy)) {
+        now = std::move(*there);
         better = true;
       }
     }

@@ -132,20 +132,32 @@ double added_volume(const Problem& problem, const Arrangement& arrangement, cons
   return added;
 }
 
+std::optional<Touch> touch_of(const Problem& problem, const Arrangement& arrangement, int a, int b) {
+  const double tolerance = problem.pair_tolerance(a, b);
+  if (problem.is_one_object(a, b) || !may_meet(problem, arrangement, a, b, tolerance)) return std::nullopt;
+  const int first_cuboid = problem.supports_count();
+  const ConvexSolid& second = arrangement.solids[b - first_cuboid];
+  auto meet = problem.is_support(a) ? interface_of(problem.supports[a], second, tolerance)
+                                    : interface_of(arrangement.solids[a - first_cuboid], second, tolerance);
+  if (!meet) return std::nullopt;
+  Touch touch{a, b, std::move(*meet)};
+  return is_filled(arrangement.solids, first_cuboid, touch) ? std::nullopt : std::optional(std::move(touch));
+}
+
 std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arrangement) {
   std::vector<Touch> touches;
-  const int first_cuboid = problem.supports_count();
   for (int a = 0; a < problem.bodies(); ++a)
-    for (int b = std::max(a + 1, first_cuboid); b < problem.bodies(); ++b) {
-      const double tolerance = problem.pair_tolerance(a, b);
-      if (problem.is_one_object(a, b) || !may_meet(problem, arrangement, a, b, tolerance)) continue;
-      const ConvexSolid& second = arrangement.solids[b - first_cuboid];
-      auto meet = problem.is_support(a) ? interface_of(problem.supports[a], second, tolerance)
-                                        : interface_of(arrangement.solids[a - first_cuboid], second, tolerance);
-      if (!meet) continue;
-      Touch touch{a, b, std::move(*meet)};
-      if (!is_filled(arrangement.solids, first_cuboid, touch)) touches.push_back(std::move(touch));
-    }
+    for (int b = std::max(a + 1, problem.supports_count()); b < problem.bodies(); ++b)
+      if (auto touch = touch_of(problem, arrangement, a, b)) touches.push_back(std::move(*touch));
+  return touches;
+}
+
+std::vector<Touch> with_moved(const Problem& problem, const Arrangement& arrangement, std::vector<Touch> touches, int body) {
+  std::erase_if(touches, [&](const Touch& t) { return t.a == body || t.b == body; });
+  for (int other = 0; other < problem.bodies(); ++other)
+    if (other != body)
+      if (auto touch = touch_of(problem, arrangement, std::min(body, other), std::max(body, other))) touches.push_back(std::move(*touch));
+  std::sort(touches.begin(), touches.end(), [](const Touch& s, const Touch& t) { return std::pair(s.a, s.b) < std::pair(t.a, t.b); });
   return touches;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "cuboids/interface.h"
@@ -79,6 +80,9 @@ struct Touch {
 };
 /// All pairs of different objects within tolerance of each other, ordered.
 std::vector<Touch> touching_pairs(const Problem& problem, const Arrangement& arrangement);
+std::optional<Touch> touch_of(const Problem& problem, const Arrangement& arrangement, int a, int b);
+/// The touches of an arrangement in which, since they were found, one body has moved a little.
+std::vector<Touch> with_moved(const Problem& problem, const Arrangement& arrangement, std::vector<Touch> touches, int body);
 /// True if a pair of bodies overlaps by more than its tolerance, and more than the initial boxes did.
 bool penetrates(const Problem& problem, const Arrangement& arrangement);
 
