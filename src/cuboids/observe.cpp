@@ -11,6 +11,7 @@
 namespace unseen::cuboids {
 namespace {
 
+constexpr double kLeastUnmasked = 0.02;  // of the points, on flat regions that no mask names
 constexpr double kSigmas = 3.0;
 constexpr double kFarthest = 100.0;       // m; nothing measures depth so far indoors: wrong units
 constexpr std::size_t kFewestPoints = 200;
@@ -123,6 +124,20 @@ std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
   return support;
 }
 
+/// Flat regions that may be supports: what no mask names, unless that is next to nothing.
+Faces faces_of_supports(const RgbdFrame& frame, const Measured& measured, const PointGraph& graph) {
+  std::vector<int> group(measured.points.size(), 0);
+  const auto grown = [&] { return grow_faces(measured.points, graph, group, Vec3::Zero(), kFewestFacePoints); };
+  if (!frame.masks.empty() && !frame.is_fused()) {
+    for (std::size_t i = 0; i < group.size(); ++i) group[i] = frame.masks[measured.pixel_of_point[i]] > 0 ? -1 : 0;
+    Faces faces = grown();
+    const auto in_faces = std::count_if(faces.face_of_point.begin(), faces.face_of_point.end(), [](int f) { return f >= 0; });
+    if (static_cast<double>(in_faces) > kLeastUnmasked * static_cast<double>(group.size())) return faces;
+    std::fill(group.begin(), group.end(), 0);
+  }
+  return grown();
+}
+
 }  // namespace
 
 Observation observe(const RgbdFrame& frame, const Options& options, Context& context) {
@@ -132,8 +147,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
   Observation seen;
   seen.graph = link_points(frame, measured, options.noise, options.gap, context);
   context.check();
-  const std::vector<int> one_group(measured.points.size(), 0);
-  const Faces faces = grow_faces(measured.points, seen.graph, one_group, Vec3::Zero(), kFewestFacePoints);
+  const Faces faces = faces_of_supports(frame, measured, seen.graph);
   const Scan scan{measured.points, seen.graph, faces, !frame.is_fused()};
   context.check();
 

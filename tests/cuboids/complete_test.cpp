@@ -148,6 +148,17 @@ TEST(Complete, SaysSoIfThereIsNothing) {
   EXPECT_EQ(completed(view).summary.status, Status::infeasible);
 }
 
+TEST(Complete, AMaskedWallOfBricksIsNoWall) {
+  SynthOptions options;
+  options.scene = "running-bond";
+  options.boxes = 56;
+  options.view = 2;
+  Context context;
+  const Completion result = completed(make_scene(options, context).views.front());
+  EXPECT_EQ(result.supports.size(), 1u);
+  EXPECT_EQ(result.cuboids.size(), 56u);
+}
+
 TEST(Complete, StopsWhenAsked) {
   SynthOptions options;
   options.scene = "desk";

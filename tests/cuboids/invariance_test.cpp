@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// From frame to contact graph: what is the same scene, mirrored or in other units, gets the same decisions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "unseen/cuboids/cuboids.h"
+#include "unseen/cuboids/synth.h"
+
+namespace unseen::cuboids {
+namespace {
+
+RgbdFrame frame_of(const SynthView& view) {
+  RgbdFrame frame;
+  frame.name = view.truth.family;
+  frame.camera = view.camera;
+  frame.depth = view.depth;
+  frame.masks.assign(view.masks.begin(), view.masks.end());
+  return frame;
+}
+
+RgbdFrame mirrored(RgbdFrame frame) {
+  const auto flip = [&](auto& image) {
+    for (int row = 0; row < frame.camera.height; ++row)
+      std::reverse(image.begin() + row * frame.camera.width, image.begin() + (row + 1) * frame.camera.width);
+  };
+  flip(frame.depth);
+  flip(frame.masks);
+  frame.camera.cx = frame.camera.width - 1 - frame.camera.cx;
+  return frame;
+}
+
+RgbdFrame scaled(RgbdFrame frame, double factor) {
+  for (float& d : frame.depth) d *= static_cast<float>(factor);
+  return frame;
+}
+
+using Graph = std::set<std::tuple<std::string, std::string, ContactKind>>;
+
+/// Contacts between masks, and whether all of it stands.
+std::pair<Graph, bool> decisions(const RgbdFrame& frame, const Options& options) {
+  Context context;
+  const Completion result = complete_cuboids(frame, options, context);
+  const auto name = [&](int id) {
+    const auto is_it = [&](const auto& body) { return body.id == id; };
+    const auto cuboid = std::find_if(result.cuboids.begin(), result.cuboids.end(), is_it);
+    return cuboid == result.cuboids.end() ? "support " + std::to_string(id) : cuboid->label + (cuboid->by_symmetry ? "'" : "");
+  };
+  Graph graph;
+  for (const Contact& c : result.contacts) {
+    const std::string a = name(c.a), b = name(c.b);
+    graph.insert({std::min(a, b), std::max(a, b), c.kind});
+  }
+  return {graph, result.stability.stable && result.unsupported.empty()};
+}
+
+class Invariance : public testing::TestWithParam<const char*> {};
+
+TEST_P(Invariance, OfTheContactGraph) {
+  SynthOptions options;
+  options.scene = GetParam();
+  options.view = 1;
+  Context context;
+  const RgbdFrame frame = frame_of(make_scene(options, context).views.front());
+  const auto usual = decisions(frame, {});
+  EXPECT_FALSE(usual.first.empty());
+  EXPECT_EQ(decisions(mirrored(frame), {}), usual) << "mirrored";
+  for (const double factor : {0.8, 1.25}) {
+    Options scaled_noise;
+    scaled_noise.noise /= factor;  // σ = noise · z² scales like z
+    EXPECT_EQ(decisions(scaled(frame, factor), scaled_noise), usual) << factor;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Families, Invariance, testing::Values("tower", "twisted", "bridge", "cyclic", "shelf", "chair-2"));
+
+}  // namespace
+}  // namespace unseen::cuboids
