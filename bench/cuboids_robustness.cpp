@@ -18,7 +18,8 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr int kRuns = 10, kTries = 20;  // a view, a box
+constexpr int kTurns = 10, kDensities = 4;  // runs a view
+constexpr int kTries = 20;  // a box
 constexpr double kSize = 0.05;         // share by which each side is wrong, at most
 constexpr double kClearOverlap = 0.01; // m
 constexpr double kWrongDensities = 0.2;  // of the boxes
@@ -76,7 +77,7 @@ struct Score {
 
 /// Runs a view, or all (−1), with boxes that `change` has changed.
 template <typename Change>
-Score score_of(const std::string& family, int view_number, const Change& change) {
+Score score_of(const std::string& family, int view_number, int runs, const Change& change) {
   SynthOptions synth;
   synth.scene = family;
   synth.view = view_number;
@@ -90,7 +91,7 @@ Score score_of(const std::string& family, int view_number, const Change& change)
   for (const SynthView& view : make_scene(synth, context).views) {
     const RgbdFrame frame = frame_of(view);
     const Completion fitted = complete_cuboids(frame, options, context);
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < runs; ++run) {
       Completion start = fitted;
       std::erase_if(start.cuboids, [](const Cuboid& c) { return c.by_symmetry; });
       start.cuboids = change(start.cuboids, random);
@@ -121,12 +122,12 @@ int main() {
       for (int view = 0; view < 5; ++view)
         for (const double degrees : {0.0, 5.0, 10.0, 15.0})
           print(about_up ? "turn_about_up_deg" : "turn_about_any_deg", degrees, family, std::to_string(view),
-                score_of(family, view, [&](const std::vector<Cuboid>& c, unseen::Random& random) {
+                score_of(family, view, kTurns, [&](const std::vector<Cuboid>& c, unseen::Random& random) {
                   return degrees > 0.0 ? perturbed(c, unseen::radians(degrees), about_up, random) : c;
                 }));
   for (const std::string& family : synth_families())
     for (const double factor : {1.0, 2.0, 3.0, 5.0, 7.0})
-      print("density_factor", factor, family, "all", score_of(family, -1, [&](const std::vector<Cuboid>& c, unseen::Random& random) {
+      print("density_factor", factor, family, "all", score_of(family, -1, kDensities, [&](const std::vector<Cuboid>& c, unseen::Random& random) {
               return misjudged(c, factor, random);
             }));
 }
