@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kParallel = 0.99;       // cosine between a face's normal and that of a contact
 constexpr double kClosable = 2.0;        // tolerances
-constexpr double kMostShrink = 0.3;      // of the size as fitted, by one face
 constexpr double kHiddenFreedom = 100.0; // variance of a face that was moved, against 1 of a seen one
 
 /// The face of a box that a contact with outward normal `n` acts on; none if it is an edge or a vertex.

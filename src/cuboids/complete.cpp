@@ -108,17 +108,11 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     result.search = {choice.nodes, choice.pruned, choice.optimal};
   }
   const Stage stage(context, summary, "refinement");
-  for (const int h : legs_to_their_plates(problem)) {
-    const auto same_pair = [&](int c) {
-      return problem.hypotheses[c].a == problem.hypotheses[h].a && problem.hypotheses[c].b == problem.hypotheses[h].b;
-    };
-    if (std::any_of(choice.chosen.begin(), choice.chosen.end(), same_pair)) continue;
-    Choice longer = choice;
-    longer.chosen.push_back(h);
-    const Arrangement a = arrange(problem, longer.chosen);
-    if (!penetrates(problem, a) && stands(problem, longer, a)) choice = std::move(longer);
-  }
   Arrangement arrangement = arrange(problem, choice.chosen);
+  for (const FaceMove& move : legs_to_their_plates(problem, rooms, arrangement)) {
+    Arrangement longer = with_face(problem, arrangement, move.body - problem.supports_count(), move.face, move.length);
+    if (!penetrates(problem, longer) && stands(problem, choice, longer)) arrangement = std::move(longer);
+  }
   Arrangement closed = arrangement;
   close_contacts(problem, touching_pairs(problem, arrangement), closed);
   if (stands(problem, choice, closed) || !stands(problem, choice, arrangement)) arrangement = std::move(closed);

@@ -32,8 +32,8 @@ void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& proble
 /// is where none can look is less likely than a contact.
 void close_hidden_gaps(const Rooms& rooms, Problem& problem);
 
-/// Hypotheses by which legs whose upper end is hidden reach the plate over them.
-std::vector<int> legs_to_their_plates(const Problem& problem);
+/// Moves by which legs whose upper end is hidden reach the plate over them.
+std::vector<FaceMove> legs_to_their_plates(const Problem& problem, const Rooms& rooms, const Arrangement& arrangement);
 
 /// m: how near two faces must be to count as touching, by the noise of the depth there.
 std::vector<double> contact_tolerance(const DepthView& view, const std::vector<Cuboid>& cuboids);

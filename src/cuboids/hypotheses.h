@@ -15,8 +15,8 @@ using Rooms = std::vector<Extension>;
 Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
                  double farthest);
 
-/// Whether nobody could have seen that a box reaches `distance` farther at a face: there, its upper edge is hidden or
-/// outside the picture. Where nothing was measured, the surface of the box would have been.
+/// Whether nobody could have seen that a box reaches `distance` farther at a face: there, its upper edge is hidden,
+/// on what was measured, or outside the picture. Where nothing was measured, the surface of the box would have been.
 bool is_covered(const DepthView& view, const OrientedBox& box, int face, double distance, double tolerance);
 
 /// m: how far a face must move outward until the box meets a body; none if it never does. 0 if they meet already. A body

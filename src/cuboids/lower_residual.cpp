@@ -15,7 +15,6 @@ constexpr int kSteps = 12, kRounds = 8;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr int kTrials = 200;
 constexpr double kBetter = 0.9;  // of the energy: a step that leaves more is not worth its volume
-constexpr double kMostShrink = 0.3;  // of a size, by one face
 constexpr double kHidden = 2.0;  // tolerances: a face with less room is one that was seen
 constexpr double kProbe = 1e-4;  // m, of the derivative
 
@@ -76,14 +75,6 @@ std::optional<State> state_of(const Problem& problem, const std::vector<char>& h
     if (s.energy >= limit) return std::nullopt;
   }
   return s;
-}
-
-Arrangement with_face(const Problem& problem, Arrangement a, int cuboid, int face, double move) {
-  const double size = 2.0 * problem.cuboids[cuboid].initial.half_size[face / 2];
-  a.extension[cuboid][face] = std::max(a.extension[cuboid][face] + move, -kMostShrink * size);
-  a.boxes[cuboid] = extended(problem.cuboids[cuboid].initial, a.extension[cuboid]);
-  a.solids[cuboid] = solid_of(a.boxes[cuboid]);
-  return a;
 }
 
 /// Derivative of the energy by each face, the forces kept (they are at their best, so theirs does not count).

@@ -117,6 +117,17 @@ Arrangement arrange(const Problem& problem, const std::vector<int>& chosen) {
   return out;
 }
 
+Arrangement with_face(const Problem& problem, Arrangement arrangement, int cuboid, int face, double move) {
+  const OrientedBox& initial = problem.cuboids[cuboid].initial;
+  double& length = arrangement.extension[cuboid][face];
+  length = std::max(length + move, -kMostShrink * 2.0 * initial.half_size[face / 2]);
+  const double before = arrangement.boxes[cuboid].volume();
+  arrangement.boxes[cuboid] = extended(initial, arrangement.extension[cuboid]);
+  arrangement.solids[cuboid] = solid_of(arrangement.boxes[cuboid]);
+  arrangement.extended_volume += arrangement.boxes[cuboid].volume() - before;
+  return arrangement;
+}
+
 double added_volume(const Problem& problem, const Arrangement& arrangement, const Hypothesis& hypothesis) {
   double added = 0.0;
   for (std::size_t m = 0; m < hypothesis.moves.size(); ++m) {

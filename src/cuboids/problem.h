@@ -70,6 +70,10 @@ struct Arrangement {
 /// Boxes after the moves of the chosen hypotheses; where several move one face, the longest move counts.
 Arrangement arrange(const Problem& problem, const std::vector<int>& chosen);
 
+inline constexpr double kMostShrink = 0.3;  ///< of the size as fitted, by one face
+/// With a face moved farther out, or in, but by no more than that.
+Arrangement with_face(const Problem& problem, Arrangement arrangement, int cuboid, int face, double move);
+
 /// m³ that the moves of a hypothesis would add.
 double added_volume(const Problem& problem, const Arrangement& arrangement, const Hypothesis& hypothesis);
 

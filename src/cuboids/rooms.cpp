@@ -50,7 +50,7 @@ bool is_covered(const DepthView& view, const OrientedBox& box, int face, double 
   for (int i = 0; i < kEdgeSamples; ++i) {
     const double t = 0.8 * (2.0 * i / (kEdgeSamples - 1) - 1.0) * box.half_size[along];
     const DepthView::Space space = view.at(middle + t * box.axes.col(along));
-    covered += space == DepthView::Space::hidden || space == DepthView::Space::outside;
+    covered += space != DepthView::Space::free && space != DepthView::Space::missing;
   }
   return 2 * covered > kEdgeSamples;
 }

@@ -133,18 +133,18 @@ std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids,
   return cuboids.size() - seen;
 }
 
-std::vector<int> legs_to_their_plates(const Problem& problem) {
-  std::vector<int> out;
-  for (const auto& [plate, legs] : tables_of(problem.cuboids, problem.tolerance))
-    for (const std::size_t leg : legs)
-      for (std::size_t h = 0; h < problem.hypotheses.size(); ++h) {
-        const Hypothesis& hypothesis = problem.hypotheses[h];
-        const int a = problem.supports_count() + static_cast<int>(leg), b = problem.supports_count() + static_cast<int>(plate);
-        if (hypothesis.kind == ContactKind::touching && hypothesis.moves.size() == 1 && hypothesis.moves[0].body == a &&
-            hypothesis.a == std::min(a, b) && hypothesis.b == std::max(a, b) &&
-            face_normal(problem.cuboids[leg].initial, hypothesis.moves[0].face).z() > kLevel)
-          out.push_back(static_cast<int>(h));
-      }
+std::vector<FaceMove> legs_to_their_plates(const Problem& problem, const Rooms& rooms, const Arrangement& arrangement) {
+  std::vector<Cuboid> now = problem.cuboids;
+  for (std::size_t i = 0; i < now.size(); ++i) now[i].initial = arrangement.boxes[i];
+  std::vector<FaceMove> out;
+  for (const auto& [plate, legs] : tables_of(now, problem.tolerance))
+    for (const std::size_t leg : legs) {
+      const OrientedBox& box = arrangement.boxes[leg];
+      const int axis = vertical_axis(box), top = box.axes(2, axis) > 0.0 ? 2 * axis + 1 : 2 * axis;
+      const auto gap = reach(box, top, arrangement.solids[plate], problem.tolerance[leg]);
+      const double room = rooms[leg][top] - arrangement.extension[leg][top];
+      if (gap && *gap > 0.0 && *gap <= room) out.push_back({problem.supports_count() + static_cast<int>(leg), top, *gap});
+    }
   return out;
 }
 
