@@ -166,6 +166,7 @@ std::vector<ConvexSolid> convex_parts(const TriangleMesh& mesh) {
       continue;  // a sliver
     }
   }
+  if (parts.empty()) throw std::invalid_argument("it is not closed");  // a pipe: its surface cancels, but holds nothing
   return parts;
 }
 
