@@ -166,7 +166,8 @@ std::vector<ConvexSolid> convex_parts(const TriangleMesh& mesh) {
       continue;  // a sliver
     }
   }
-  if (parts.empty()) throw std::invalid_argument("it is not closed");  // a pipe: its surface cancels, but holds nothing
+  // The faces of an open pipe cancel as well, but hold nothing.
+  if (parts.empty()) throw std::invalid_argument("it is not closed");
   return parts;
 }
 

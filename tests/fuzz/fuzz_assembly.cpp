@@ -29,7 +29,8 @@ void check(const io::Assembly& assembly) {
   for (std::size_t i = 0; i < blocks.size(); ++i)
     good = good && result.velocity[i].allFinite() && result.angular_velocity[i].allFinite();
   for (const Contact& c : result.contacts)
-    for (std::size_t i = 0; i < c.points.size(); ++i) good = good && c.points[i].allFinite() && c.forces[i].allFinite();
+    for (std::size_t i = 0; i < c.points.size(); ++i)
+      good = good && c.points[i].allFinite() && c.forces[i].allFinite();
   if (!good) std::abort();
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-// Bytes that begin as a PNG does are a picture of a frame; any others are the text of a frame file beside depth.png
-// (2 × 2 pixels of 16 bits) and cloud.xyz.
+// Bytes that begin as a PNG does are a picture of a frame; any others are the text of a frame file beside
+// depth.png (2 × 2 pixels of 16 bits) and cloud.xyz.
 #include <stdlib.h>
 
 #include <cmath>
@@ -86,7 +86,8 @@ struct Folder {
   }
   ~Folder() { fs::remove_all(path); }
   void write(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path / name, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path / name, std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
   fs::path path;
 };
@@ -97,8 +98,10 @@ void read(const Folder& folder, std::string_view text) {
   try {
     const RgbdFrame frame = read_rgbd_frame(folder.path);
     files_of_rgbd_frame(folder.path);
-    const auto pixels = static_cast<std::size_t>(frame.camera.width) * static_cast<std::size_t>(frame.camera.height);
-    bool good = frame.is_fused() ? frame.cloud.viewpoint.has_value() : pixels > 0 && frame.depth.size() == pixels;
+    const auto pixels =
+        static_cast<std::size_t>(frame.camera.width) * static_cast<std::size_t>(frame.camera.height);
+    bool good =
+        frame.is_fused() ? frame.cloud.viewpoint.has_value() : pixels > 0 && frame.depth.size() == pixels;
     good = good && (frame.color.empty() || frame.color.size() == pixels);
     good = good && (frame.masks.empty() || frame.masks.size() == pixels);
     for (const GivenSupport& s : frame.supports)
