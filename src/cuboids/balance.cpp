@@ -24,7 +24,6 @@ constexpr double kBalanced = 1e-11;  ///< residual
 constexpr double kMinimal = 1e-12;   ///< gradient of ψ, at least; per σ, what rounding leaves
 constexpr double kRounding = 1e-15;
 constexpr double kRough = 1e-2;      ///< share of a round's change in f/σ to which it need be solved
-constexpr double kCertain = 1e-7;    ///< share of ‖r‖² by which the dual bound may miss it
 
 using Vector = Eigen::VectorXd;
 

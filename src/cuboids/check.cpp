@@ -51,9 +51,13 @@ Piece piece_of(const Block& block, const Mat3& turn) {
   return piece;
 }
 
-std::vector<Piece> pieces_of(const std::vector<Block>& blocks, const CheckOptions& options, const Mat3& turn) {
+std::vector<Piece> pieces_of(const std::vector<Block>& blocks, const CheckOptions& options, const Mat3& turn,
+                             const Context& context) {
   std::vector<Piece> pieces;
-  for (const Block& block : blocks) pieces.push_back(piece_of(block, turn));
+  for (const Block& block : blocks) {
+    context.check();
+    pieces.push_back(piece_of(block, turn));
+  }
   for (const std::string& name : options.supports) {
     const auto at = std::find_if(blocks.begin(), blocks.end(), [&](const Block& b) { return b.name == name; });
     if (at == blocks.end()) {
@@ -102,7 +106,7 @@ Check check_assembly(const std::vector<Block>& blocks, const CheckOptions& optio
   require(options.friction >= 0.0 && options.friction <= 10.0, "mu", fmt::format("{}", options.friction),
           "a number in [0, 10]");
   const Mat3 turn = turn_to_z(options.up.normalized());
-  const std::vector<Piece> pieces = pieces_of(blocks, options, turn);
+  const std::vector<Piece> pieces = pieces_of(blocks, options, turn, context);
   std::vector<Body> bodies;
   for (const Piece& piece : pieces) bodies.push_back(piece.body);
 

@@ -166,6 +166,8 @@ std::vector<ConvexSolid> convex_parts(const TriangleMesh& mesh) {
       continue;  // a sliver
     }
   }
+  // The faces of an open pipe cancel as well, but hold nothing.
+  if (parts.empty()) throw std::invalid_argument("it is not closed");
   return parts;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kFlat = 1e-5;      // of the radius: vertices so near a plane are on it
 constexpr double kParallel = 1e-6;  // rad
+constexpr double kLeast = 1e-30;    // radius: of smaller solids the squares of areas and weights vanish
 
 Vec3 newell(const std::vector<Vec3>& vertices, const std::vector<int>& loop) {  // doubled area
   Vec3 sum = Vec3::Zero();
@@ -124,7 +125,8 @@ ConvexSolid solid_of(const TriangleMesh& mesh) {
     volume += a.dot(b.cross(c)) / 6.0;
     area += (b - a).cross(c - a).norm() / 2.0;
   }
-  if (!(std::abs(volume) > flat * solid.radius * solid.radius)) throw std::invalid_argument("it has no volume");
+  if (!(std::abs(volume) > flat * solid.radius * solid.radius) || solid.radius < kLeast)
+    throw std::invalid_argument("it has no volume");
   for (const auto& t : whole.triangles) {
     const Vec3 &a = whole.vertices[t[0]], &b = whole.vertices[t[1]], &c = whole.vertices[t[2]];
     Vec3 normal = (b - a).cross(c - a);

@@ -14,6 +14,7 @@
 namespace unseen::io {
 namespace {
 
+constexpr double kFarthest = 1e6;  // m, of a support: divided by the length of its normal it must stay finite
 const std::vector<std::string> kKinds = {"ground", "desk", "wall", "ceiling"};
 
 bool is_kind(const std::string& kind) {
@@ -42,6 +43,7 @@ GivenSupport parse_support(const std::string& text, const std::string& source) {
   bool good = parts.size() == 4 || parts.size() == 5;
   for (std::size_t i = 0; good && i < 4; ++i) good = to_number(trim(parts[i]), numbers[i]) && std::isfinite(numbers[i]);
   if (!good) fail("nx,ny,nz,d or nx,ny,nz,d,kind");
+  if (std::abs(numbers[3]) > kFarthest) fail(fmt::format("d within ±{:g}", kFarthest));
   const Vec3 normal(numbers[0], numbers[1], numbers[2]);
   if (!is_direction(normal)) fail("a normal that is not zero");
   const std::string kind = parts.size() == 5 ? std::string(trim(parts[4])) : "ground";
@@ -103,7 +105,7 @@ std::vector<GivenSupport> read_supports(const JsonField& json) {
                        "a normal that is not zero");
     const std::string kind = field.has("kind") ? field["kind"].text() : "ground";
     if (!is_kind(kind)) field["kind"].fail(fmt::format("one of {}", fmt::join(kKinds, ", ")));
-    supports.push_back({unit_plane(normal, field["offset"].number()), kind});
+    supports.push_back({unit_plane(normal, field["offset"].number(-kFarthest, kFarthest)), kind});
   }
   return supports;
 }

@@ -134,6 +134,14 @@ TEST(Check, NamesWhatIsWrong) {
           "block 1");  // flat
   refused(R"({"blocks": [{"id": 1, "vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1],[2,2,2]], "faces": [[0,2,1],[0,1,3],[1,2,3],[1,2,3]]}]})",
           "block 1");  // open
+  refused(R"({"blocks": [{"id": 1, "vertices": [[0,0,0],[2,0,0],[2,1,0],[1,1,0],[1,2,0],[0,2,0],
+      [0,0,0.1],[2,0,0.1],[2,1,0.1],[1,1,0.1],[1,2,0.1],[0,2,0.1]],
+    "faces": [[0,1,7,6],[1,2,8,7],[2,3,9,8],[3,4,10,9],[4,5,11,10],[5,0,6,11]]}]})",
+          "block 1");  // a short pipe: open, though the areas of its faces cancel
+  for (const char* size : {"1e-31", "1e-100", "1e-107", "1e-200"})  // areas, volumes or weights underflow
+    refused("{\"blocks\": [{\"id\": 1, \"center\": [0,0,0], \"size\": [" + std::string(size) + "," + size + "," + size +
+                "]}]}",
+            "block 1");
   refused(std::string(100000, '['), "");
   refused("{\"data\": {\"graph\": {\"data\": {\"node\": {\"x\": {}}}}}}", "data.graph.data.node.x");
   refused("{\"data\": 1e999}", "");

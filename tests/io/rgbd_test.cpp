@@ -305,6 +305,7 @@ TEST_F(Rgbd, Hints) {
   refused_fields(R"("supports": [{"normal": [0, 0, 0], "offset": 1, "kind": "desk"}])", "supports[0].normal",
                  {"not zero"});
   refused_fields(R"("supports": [{"normal": [0, 0, 1], "kind": "desk"}])", "supports[0].offset");
+  refused_fields(R"("supports": [{"normal": [0, 0, 1e-5], "offset": 1e308}])", "supports[0].offset");
   refused_fields(R"("supports": [{"normal": [0, 0, 1], "offset": 1, "kind": "roof"}])", "supports[0].kind",
                  {"ceiling"});
   refused_fields(R"("supports": {})", "supports");
@@ -374,7 +375,7 @@ TEST(Supports, FromText) {
   EXPECT_EQ(supports[1].kind, "wall");
   EXPECT_EQ(supports[2].kind, "ground");
   EXPECT_TRUE(parse_supports("", "command line").empty());
-  for (const char* text : {"1,2,3", "0,0,0,1", "a,0,0,1", "0,0,1,inf", "0,0,1,1,roof", "0,0,1,1,desk,2", ";;"})
+  for (const char* text : {"1,2,3", "0,0,0,1", "a,0,0,1", "0,0,1,inf", "0,0,1e-5,1e308", "0,0,1,1,roof", "0,0,1,1,desk,2", ";;"})
     EXPECT_THROW(parse_supports(text, "command line"), InputError) << text;
 }
 
