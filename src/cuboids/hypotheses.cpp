@@ -48,7 +48,7 @@ void propose_direct(Proposer& p, int a, int b, std::vector<FaceMove>& candidates
   for (int face = 0; face < 6; ++face) {
     if (p.room(a, face) <= 0.0) continue;
     const auto length = p.reach_of(a, p.box(a), face, b);
-    if (!length || *length <= 0.0 || *length > p.room(a, face)) continue;
+    if (!length || *length <= 0.0 || *length > p.room(a, face) + p.tolerance(a, b)) continue;  // a touch needs no more
     candidates.push_back({a, face, *length});
   }
 }
