@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "cuboids/interface.h"
+#include "cuboids/synth_frame.h"
 #include "unseen/core/random.h"
 #include "unseen/cuboids/cuboids.h"
 #include "unseen/cuboids/evaluate.h"
-#include "unseen/cuboids/synth.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -23,17 +23,6 @@ constexpr int kTries = 20;  // a box
 constexpr double kSize = 0.05;         // share by which each side is wrong, at most
 constexpr double kClearOverlap = 0.01; // m
 constexpr double kWrongDensities = 0.2;  // of the boxes
-
-/// A generated view as the program would read it.
-RgbdFrame frame_of(const SynthView& view) {
-  RgbdFrame frame;
-  frame.name = view.truth.family;
-  frame.camera = view.camera;
-  frame.depth = view.depth;
-  frame.color = view.color;
-  frame.masks.assign(view.masks.begin(), view.masks.end());
-  return frame;
-}
 
 double overlap(const OrientedBox& a, const OrientedBox& b) {
   const auto meet = interface_of(solid_of(a), solid_of(b), 0.0);

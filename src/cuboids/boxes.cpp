@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cuboids/box_fit.h"
-#include "cuboids/hypotheses.h"
+#include "cuboids/reach.h"
 #include "cuboids/slabs.h"
 #include "unseen/core/error.h"
 

@@ -10,11 +10,20 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kFarthest = 3.0;  // m: no face moves farther than this
-
 bool stands(const Problem& problem, const Choice& choice, const Arrangement& arrangement) {
   const Structure s = structure_of(problem, arrangement, touching_pairs(problem, arrangement), choice.held);
   return balance(s.bodies, s.contacts).residual < problem.stable_residual;
+}
+
+/// Whether a body is held, or rigid with one that is, and not with a support.
+bool hangs_in_the_air(const Problem& problem, const Structure& structure, const std::vector<char>& held, int body) {
+  bool is_held = false;
+  for (int other = 0; other < problem.bodies(); ++other) {
+    if (structure.group[other] != structure.group[body]) continue;
+    if (problem.is_support(other)) return false;
+    is_held |= held[other] != 0;
+  }
+  return is_held;
 }
 
 /// Writes the chosen arrangement into the result.
@@ -31,9 +40,10 @@ void describe(const Problem& problem, const Choice& choice, const Arrangement& a
         contact.direction = touch.interface.normal;
         contact.points = touch.interface.points;
       }
-    if (contact.points.empty()) {  // pieces of one object
-      const Vec3 &first = arrangement.boxes[a - problem.supports_count()].center, &second = arrangement.boxes[c - problem.supports_count()].center;
-      contact.direction = (second - first).normalized();
+    if (contact.points.empty()) {  // apart, as pieces of one object may be
+      const Vec3& second = arrangement.boxes[c - problem.supports_count()].center;
+      const Vec3 first = problem.is_support(a) ? problem.supports[a].plane.project(second) : arrangement.boxes[a - problem.supports_count()].center;
+      if (first != second) contact.direction = (second - first).normalized();
       contact.points = {0.5 * (first + second)};
     }
     result.contacts.push_back(std::move(contact));
@@ -51,10 +61,12 @@ void describe(const Problem& problem, const Choice& choice, const Arrangement& a
     const int t = structure.touch_of_contact[p];
     if (contact_of_touch[t] >= 0) result.contacts[contact_of_touch[t]].forces[next[t]++] = b.forces[p];
   }
-  for (int i = 0; i < problem.bodies(); ++i)
-    if (choice.held[i]) result.unsupported.push_back(id(i));
+  for (int i = problem.supports_count(); i < problem.bodies(); ++i)
+    if (hangs_in_the_air(problem, structure, choice.held, i)) result.unsupported.push_back(id(i));
   result.fixed_contacts = static_cast<int>(arrangement.fixed.size());
-  result.extended_volume = choice.cost.volume;
+  result.extended_volume = 0.0;
+  for (const Cuboid& cuboid : result.cuboids)  // a face that was seen may have moved inwards, within noise
+    result.extended_volume += std::max(0.0, cuboid.box.volume() - cuboid.initial.volume());
   result.stability.residual = b.residual;
   result.stability.stable = b.residual < problem.stable_residual;
   if (result.stability.stable) {
@@ -87,23 +99,23 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     problem.cuboids = result.cuboids;
     problem.tolerance = tolerance;
     problem.joints = joints_of(problem);
-    assume_thickness(view, find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
-    close_hidden_gaps(find_rooms(view, problem.cuboids, tolerance, kFarthest), problem);
-    rooms = find_rooms(view, problem.cuboids, tolerance, kFarthest);
+    rooms = find_rooms(view, problem.cuboids, tolerance);
+    assume_thickness(view, rooms, problem);
+    close_hidden_gaps(rooms, problem);
     problem.hypotheses = propose_contacts(problem, rooms);
     summary.counts.emplace_back("cuboids", result.cuboids.size());
     summary.counts.emplace_back("hypotheses", problem.hypotheses.size());
   }
+  const Admissible admissible = [&](const Arrangement& a) {
+    for (std::size_t i = 0; i < a.boxes.size(); ++i)
+      if (a.boxes[i].volume() > problem.cuboids[i].initial.volume() &&
+          !in_hidden_space(view, problem.cuboids[i].initial, a.boxes[i], problem.tolerance[i]))
+        return false;
+    return true;
+  };
   Choice choice;
   {
     const Stage stage(context, summary, "search");
-    const Admissible admissible = [&](const Arrangement& a) {
-      for (std::size_t i = 0; i < a.boxes.size(); ++i)
-        if (a.boxes[i].volume() > problem.cuboids[i].initial.volume() &&
-            !in_hidden_space(view, problem.cuboids[i].initial, a.boxes[i], problem.tolerance[i]))
-          return false;
-      return true;
-    };
     choice = search_contacts(problem, admissible, {options.arrangements, options.time_limit}, context);
     result.search = {choice.nodes, choice.pruned, choice.optimal};
   }
@@ -111,12 +123,12 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   Arrangement arrangement = arrange(problem, choice.chosen);
   for (const FaceMove& move : legs_to_their_plates(problem, rooms, arrangement)) {
     Arrangement longer = with_face(problem, arrangement, move.body - problem.supports_count(), move.face, move.length);
-    if (!penetrates(problem, longer) && stands(problem, choice, longer)) arrangement = std::move(longer);
+    if (!penetrates(problem, longer) && admissible(longer) && stands(problem, choice, longer)) arrangement = std::move(longer);
   }
   Arrangement closed = arrangement;
   close_contacts(problem, touching_pairs(problem, arrangement), closed);
   if (stands(problem, choice, closed) || !stands(problem, choice, arrangement)) arrangement = std::move(closed);
-  lower_residual(problem, rooms, choice.held, arrangement, context);
+  lower_residual(problem, rooms, admissible, choice.held, arrangement, context);
   describe(problem, choice, arrangement, result);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {

@@ -26,11 +26,12 @@ std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids,
 
 /// Upright boxes whose back was not seen get a thickness: that of their narrower visible side, as far as hidden space
 /// goes. Something covers the upper edge of their back, or that would have shown it.
-void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& problem);
+/// Their rooms shrink along.
+void assume_thickness(const DepthView& view, Rooms& rooms, Problem& problem);
 
 /// Faces that nobody saw, with a body no farther off than a few times the tolerance, move to meet it: that a gap so small
-/// is where none can look is less likely than a contact.
-void close_hidden_gaps(const Rooms& rooms, Problem& problem);
+/// is where none can look is less likely than a contact. Their rooms shrink along.
+void close_hidden_gaps(Rooms& rooms, Problem& problem);
 
 /// Moves by which legs whose upper end is hidden reach the plate over them.
 std::vector<FaceMove> legs_to_their_plates(const Problem& problem, const Rooms& rooms, const Arrangement& arrangement);
@@ -41,8 +42,10 @@ std::vector<double> contact_tolerance(const DepthView& view, const std::vector<C
 /// Moves faces so that what touches touches exactly: hidden faces freely, seen ones as little as possible.
 void close_contacts(const Problem& problem, const std::vector<Touch>& touches, Arrangement& arrangement);
 
-/// Lowers the residual by small moves of faces: hidden ones within their rooms, seen ones within noise (Eq. 4.4).
-void lower_residual(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+/// Lowers the residual, at rest and under the pushes, by moves of faces: hidden ones within their rooms, seen ones within
+/// noise (Eq. 4.4). Every step is one that `admissible` allows.
+void lower_residual(const Problem& problem, const Rooms& rooms, const Admissible& admissible, const std::vector<char>& held,
+                    Arrangement& arrangement, Context& context);
 
 /// From boxes around what is visible (`result.cuboids`) to a scene that stands.
 void complete_boxes(const RgbdFrame& frame, const Options& options, Context& context, Completion& result);

@@ -129,9 +129,7 @@ void propose_sideways(Proposer& p, int lower, int upper, int mover) {
       const double length = end - far_end(p.box(mover), face_normal(p.box(mover), face));
       if (length < last + 0.5 * overlap || length > p.room(mover, face)) continue;
       last = length;
-      Extension extension{};
-      extension[face] = length;
-      const OrientedBox grown = extended(p.box(mover), extension);
+      const OrientedBox grown = extended(p.box(mover), face, length);
       const auto gap = mover == upper ? p.reach_of(upper, grown, *down, lower) : reach(p.box(upper), *down, solid_of(grown), overlap);
       if (!gap) continue;
       const FaceMove sideways = {mover, face, length};
@@ -158,9 +156,7 @@ void propose_beside(Proposer& p, int mover, int other) {
       const double length = end - start;
       if (length < last + overlap || length > p.room(mover, face)) continue;
       last = length;
-      Extension extension{};
-      extension[face] = length;
-      const auto meet = interface_of(solid_of(extended(p.box(mover), extension)), p.solids[other - p.problem.supports_count()], overlap);
+      const auto meet = interface_of(solid_of(extended(p.box(mover), face, length)), p.solids[other - p.problem.supports_count()], overlap);
       if (!meet || meet->gap < -overlap || std::abs(meet->normal.dot(direction)) > kFacesUp) continue;
       p.add(mover, other, ContactKind::touching, {{mover, face, length}});
       p.add(mover, other, ContactKind::fixed, {{mover, face, length}});

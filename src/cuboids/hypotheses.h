@@ -7,22 +7,18 @@
 
 #include "cuboids/depth_view.h"
 #include "cuboids/problem.h"
+#include "cuboids/reach.h"
 
 namespace unseen::cuboids {
 
-/// m: how far each face of each cuboid may move outward before it enters space that the view proves free.
+/// m: how far each face of each cuboid may move outward before it enters space that the view proves free; sideways also
+/// no farther than its upper edge stays covered, nor than the longest side that was seen. None for what nobody saw.
 using Rooms = std::vector<Extension>;
-Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
-                 double farthest);
+Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance);
 
 /// Whether nobody could have seen that a box reaches `distance` farther at a face: there, its upper edge is hidden,
 /// on what was measured, or outside the picture. Where nothing was measured, the surface of the box would have been.
 bool is_covered(const DepthView& view, const OrientedBox& box, int face, double distance, double tolerance);
-
-/// m: how far a face must move outward until the box meets a body; none if it never does. 0 if they meet already. A body
-/// that the swept space only grazes, by less than `tolerance` (m) at its sides, is not met.
-std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid& other, double tolerance);
-std::optional<double> reach(const OrientedBox& box, int face, const Support& other);
 
 /// Contacts that pairs of bodies may have through hidden space (design page, step 5; thesis Fig. 4.7). Touching: a
 /// face moves until it meets the other body; or the lower body grows sideways under the upper one, or the upper one

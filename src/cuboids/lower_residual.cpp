@@ -13,7 +13,7 @@ namespace {
 constexpr double kGoodResidual = 1e-6;
 constexpr int kSteps = 12, kRounds = 8;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr int kTrials = 200;
+constexpr int kTrials = 200;     // arrangements that growing faces may be tried with
 constexpr double kBetter = 0.9;  // of the energy: a step that leaves more is not worth its volume
 constexpr double kHidden = 2.0;  // tolerances: a face with less room is one that was seen
 constexpr double kProbe = 1e-4;  // m, of the derivative
@@ -96,7 +96,8 @@ std::vector<Extension> gradient(const Problem& problem, const std::vector<char>&
 
 /// Where no small step helps any more: one hidden face after the other grows, the one that helps most, by the least
 /// that does.
-State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, State now, Context& context) {
+State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const Admissible& admissible, const std::vector<char>& held, State now,
+                        Context& context) {
   int trials = 0;
   for (int round = 0; round < kRounds && now.residual > kGoodResidual; ++round) {
     std::vector<char> is_near(now.structure.bodies.size(), 0);
@@ -114,7 +115,7 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::v
         for (double step = tolerance; step <= rooms[i][face] - now.arrangement.extension[i][face]; step *= 2.0) {
           Arrangement next = with_face(problem, now.arrangement, static_cast<int>(i), face, step);
           close_contacts(problem, touching_pairs(problem, next), next);
-          if (penetrates(problem, next)) break;
+          if (penetrates(problem, next) || !admissible(next)) break;
           if (++trials > kTrials) return best ? *best : now;
           auto there = state_of(problem, held, std::move(next), least);
           if (!there) continue;
@@ -131,7 +132,8 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const std::v
 
 }  // namespace
 
-void lower_residual(const Problem& problem, const Rooms& rooms, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
+void lower_residual(const Problem& problem, const Rooms& rooms, const Admissible& admissible, const std::vector<char>& held,
+                    Arrangement& arrangement, Context& context) {
   State now = *state_of(problem, held, arrangement, kNoLimit);
   const std::vector<Extension> start = arrangement.extension;
   for (int step = 0; step < kSteps && now.residual > kGoodResidual; ++step) {
@@ -156,7 +158,7 @@ void lower_residual(const Problem& problem, const Rooms& rooms, const std::vecto
           next = with_face(problem, std::move(next), static_cast<int>(i), face, allowed - next.extension[i][face]);
         }
       close_contacts(problem, touching_pairs(problem, next), next);
-      if (penetrates(problem, next)) continue;
+      if (penetrates(problem, next) || !admissible(next)) continue;
       if (auto there = state_of(problem, held, std::move(next), 0.98 * now.energy)) {
         now = std::move(*there);
         better = true;
@@ -164,7 +166,7 @@ void lower_residual(const Problem& problem, const Rooms& rooms, const std::vecto
     }
     if (!better) break;
   }
-  arrangement = grow_hidden_faces(problem, rooms, held, std::move(now), context).arrangement;
+  arrangement = grow_hidden_faces(problem, rooms, admissible, held, std::move(now), context).arrangement;
 }
 
 }  // namespace unseen::cuboids

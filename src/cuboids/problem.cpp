@@ -29,6 +29,12 @@ OrientedBox extended(const OrientedBox& box, const Extension& extension) {
   return out;
 }
 
+OrientedBox extended(const OrientedBox& box, int face, double length) {
+  Extension extension{};
+  extension[face] = length;
+  return extended(box, extension);
+}
+
 double Problem::pair_tolerance(int a, int b) const {
   const double second = tolerance[b - supports_count()];
   return is_support(a) ? second : std::max(tolerance[a - supports_count()], second);

@@ -19,6 +19,7 @@ using Extension = std::array<double, 6>;
 /// Outward unit normal of a face.
 Vec3 face_normal(const OrientedBox& box, int face);
 OrientedBox extended(const OrientedBox& box, const Extension& extension);
+OrientedBox extended(const OrientedBox& box, int face, double length);
 
 /// What one hypothesis asks of a box: that a face moves outward by at least `length`.
 struct FaceMove {

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "cuboids/hypotheses.h"
+#include "cuboids/problem.h"
+#include "cuboids/reach.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -35,7 +36,8 @@ std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid&
     for (int side = 0; side < 3; ++side) {
       if (side == face / 2) continue;
       const Vec3 axis = box.axes.col(side);
-      const double middle = axis.dot(box.center), half = box.half_size[side] - std::clamp(tolerance, kInset * box.half_size[side], kMostInset * box.half_size[side]);
+      const double inset = std::clamp(tolerance, kInset * box.half_size[side], kMostInset * box.half_size[side]);
+      const double middle = axis.dot(box.center), half = box.half_size[side] - inset;
       polygon = clip(polygon, axis, middle + half);
       polygon = clip(polygon, -axis, -middle + half);
     }

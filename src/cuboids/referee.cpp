@@ -34,6 +34,7 @@ namespace {
 
 constexpr double kStep = 1e-3, kGravity = 9.81;
 constexpr int kStepsBetweenLooks = 10;
+constexpr double kFlungApart = 1.0;  // share of its longest side that each box counts as moved if the simulation blows up
 constexpr double kSlab = 0.02;  // m, thickness of a support that has a lower side
 constexpr double kApart = 5e-6;  // m: faces that coincide exactly give MuJoCo 2.2 contacts of depth −0.6 m
 
@@ -163,7 +164,10 @@ std::vector<double> simulate(const RefereeScene& scene, const Vec3& down, double
   while (data->time < seconds) {
     context.check();
     for (int i = 0; i < kStepsBetweenLooks; ++i) mj_step(model.get(), data.get());
-    if (data->warning[mjWARN_BADQACC].number > 0) break;  // flung apart; MuJoCo has begun again by itself
+    if (data->warning[mjWARN_BADQACC].number > 0) {  // MuJoCo has begun again by itself: nothing is shown to stand
+      for (double& m : moved) m = std::max(m, kFlungApart);
+      break;
+    }
     mj_kinematics(model.get(), data.get());
     for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = move_of(scene.boxes[i], place_of(model.get(), data.get(), scene, i));
   }

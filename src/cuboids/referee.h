@@ -23,7 +23,8 @@ struct RefereeScene {
 bool has_referee();
 
 /// Lets MuJoCo run for `seconds` with gravity along `down` (in g). Gives for each box the largest distance that a corner
-/// of it moved, as a share of its longest side. Throws std::logic_error without the engine.
+/// of it moved, as a share of its longest side; at least 1 if the
+/// simulation blows up. Throws std::logic_error without the engine.
 std::vector<double> simulate(const RefereeScene& scene, const Vec3& down, double seconds, Context& context);
 
 }  // namespace unseen::cuboids

@@ -11,6 +11,8 @@ namespace {
 constexpr double kUpright = 0.7;     // cosine
 constexpr double kFitOpen = 1.5;     // tolerances
 constexpr int kMaxSamples = 14;      // along one side of a face
+constexpr int kEdgeSamples = 9;      // along an edge
+constexpr double kFarthest = 3.0;    // m: no face moves farther than this
 
 /// Places along one side of a box, away from its edges, where flying pixels are.
 std::vector<double> places(double half, double inset, double step) {
@@ -20,8 +22,6 @@ std::vector<double> places(double half, double inset, double step) {
   for (int i = 0; i < count; ++i) out.push_back(-reach + 2.0 * reach * i / (count - 1));
   return out;
 }
-
-constexpr int kEdgeSamples = 9;
 
 /// Share of the samples of a face, moved outward by `distance`, that the view proves free.
 double free_share(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
@@ -55,27 +55,29 @@ bool is_covered(const DepthView& view, const OrientedBox& box, int face, double 
   return 2 * covered > kEdgeSamples;
 }
 
-Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance,
-                 double farthest) {
-  Rooms rooms(cuboids.size(), Extension{});
-  for (std::size_t i = 0; i < cuboids.size(); ++i)
-    for (int face = 0; face < 6; ++face) {
-      const double step = tolerance[i];
-      // A face that is seen stops at the first step: it may still move by what the fit leaves open.
-      const bool sideways = std::abs(face_normal(cuboids[i].initial, face).z()) < kUpright;
-      const auto is_open = [&](double at) {
-        return free_share(view, cuboids[i].initial, face, at, tolerance[i]) <= kFreeShare &&
-               (!sideways || is_covered(view, cuboids[i].initial, face, at, tolerance[i]));
-      };
-      if (sideways && cuboids[i].by_symmetry) continue;
-      double at = step;
-      while (at < farthest && is_open(at + 0.5 * step)) at += step;
-      rooms[i][face] = at > 1.5 * step ? at : kFitOpen * step;
-      // Sideways a box grows no longer than its longest side that was seen: else a pole would become a wall.
-      const OrientedBox& box = cuboids[i].initial;
-      if (sideways)
-        rooms[i][face] = std::min(rooms[i][face], std::max(2.0 * box.half_size.maxCoeff() - box.half_size[face / 2], kFitOpen * step));
-    }
+static Extension room_of(const DepthView& view, const Cuboid& cuboid, double tolerance) {
+  const OrientedBox& box = cuboid.initial;
+  Extension room{};
+  for (int face = 0; face < 6; ++face) {
+    const bool sideways = std::abs(face_normal(box, face).z()) < kUpright;
+    if (sideways && cuboid.by_symmetry) continue;
+    const auto is_open = [&](double at) {
+      return free_share(view, box, face, at, tolerance) <= kFreeShare && (!sideways || is_covered(view, box, face, at, tolerance));
+    };
+    // A face that is seen stops at the first step: it may still move by what the fit leaves open.
+    double at = tolerance;
+    while (at < kFarthest && is_open(at + 0.5 * tolerance)) at += tolerance;
+    room[face] = at > 1.5 * tolerance ? at : kFitOpen * tolerance;
+    // Sideways a box grows no longer than its longest side that was seen: else a pole would become a wall.
+    if (sideways)
+      room[face] = std::min(room[face], std::max(2.0 * box.half_size.maxCoeff() - box.half_size[face / 2], kFitOpen * tolerance));
+  }
+  return room;
+}
+
+Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance) {
+  Rooms rooms;
+  for (std::size_t i = 0; i < cuboids.size(); ++i) rooms.push_back(room_of(view, cuboids[i], tolerance[i]));
   return rooms;
 }
 

@@ -13,7 +13,7 @@ constexpr double kUpright = 0.3;  // cosine: such an axis is horizontal
 
 }  // namespace
 
-void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& problem) {
+void assume_thickness(const DepthView& view, Rooms& rooms, Problem& problem) {
   std::vector<ConvexSolid> solids;
   for (const Cuboid& cuboid : problem.cuboids) solids.push_back(solid_of(cuboid.initial));
   for (std::size_t i = 0; i < problem.cuboids.size(); ++i)
@@ -30,10 +30,9 @@ void assume_thickness(const DepthView& view, const Rooms& rooms, Problem& proble
       for (const Support& support : problem.supports)
         if (const auto gap = reach(box, face, support)) length = std::min(length, *gap);
       if (length <= 0.0) continue;
-      Extension extension{};
-      extension[face] = length;
-      box = extended(box, extension);
+      box = extended(box, face, length);
       solids[i] = solid_of(box);
+      rooms[i][face] -= length;
     }
 }
 

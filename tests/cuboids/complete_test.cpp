@@ -10,6 +10,7 @@
 
 #include "cuboids/hypotheses.h"
 #include "box_problems.h"
+#include "synth_frame.h"
 #include "unseen/cuboids/cuboids.h"
 #include "unseen/cuboids/synth.h"
 
@@ -49,17 +50,6 @@ TEST(Search, DoesNotDependOnTurnsAndMirrors) {
     EXPECT_EQ(cost(turn, mirror).fixed, first.fixed);
     EXPECT_NEAR(cost(turn, mirror).volume, first.volume, 1e-8);
   }
-}
-
-/// A generated frame with its masks.
-RgbdFrame frame_of(const SynthView& view) {
-  RgbdFrame frame;
-  frame.name = view.truth.family;
-  frame.camera = view.camera;
-  frame.depth = view.depth;
-  frame.color = view.color;
-  frame.masks.assign(view.masks.begin(), view.masks.end());
-  return frame;
 }
 
 Completion completed(const SynthView& view) {
@@ -118,11 +108,7 @@ TEST_P(Stacks, HaveTheirTrueContactsAndStand) {
 INSTANTIATE_TEST_SUITE_P(Families, Stacks, testing::Values("tower", "twisted", "bridge", "cyclic", "shelf"));
 
 TEST(HiddenLegs, AreCompletedBySymmetryWhereTheyAre) {
-  SynthOptions options;
-  options.scene = "chair-1";
-  options.view = 0;
-  Context context;
-  const SynthView view = make_scene(options, context).views.front();
+  const SynthView view = view_of("chair-1", 0);
   const Completion result = completed(view);
   int legs = 0;
   for (const Cuboid& c : result.cuboids) {
@@ -137,11 +123,7 @@ TEST(HiddenLegs, AreCompletedBySymmetryWhereTheyAre) {
 }
 
 TEST(Complete, SaysSoIfThereIsNothing) {
-  SynthOptions options;
-  options.scene = "tower";
-  options.view = 0;
-  Context context;
-  SynthView view = make_scene(options, context).views.front();
+  SynthView view = view_of("tower", 0);
   for (std::size_t i = 0; i < view.masks.size(); ++i)
     if (view.masks[i] != 0) view.depth[i] = 0.0f;
   std::fill(view.masks.begin(), view.masks.end(), 0);
@@ -149,22 +131,13 @@ TEST(Complete, SaysSoIfThereIsNothing) {
 }
 
 TEST(Complete, AMaskedWallOfBricksIsNoWall) {
-  SynthOptions options;
-  options.scene = "running-bond";
-  options.boxes = 56;
-  options.view = 2;
-  Context context;
-  const Completion result = completed(make_scene(options, context).views.front());
+  const Completion result = completed(view_of("running-bond", 2, 56));
   EXPECT_EQ(result.supports.size(), 1u);
   EXPECT_EQ(result.cuboids.size(), 56u);
 }
 
 TEST(Complete, StopsWhenAsked) {
-  SynthOptions options;
-  options.scene = "desk";
-  options.view = 0;
-  Context context;
-  const SynthView view = make_scene(options, context).views.front();
+  const SynthView view = view_of("desk", 0);
   std::stop_source stop;
   stop.request_stop();
   Context stopped;

@@ -6,20 +6,11 @@
 #include <algorithm>
 #include <set>
 
+#include "synth_frame.h"
 #include "unseen/cuboids/cuboids.h"
-#include "unseen/cuboids/synth.h"
 
 namespace unseen::cuboids {
 namespace {
-
-RgbdFrame frame_of(const SynthView& view) {
-  RgbdFrame frame;
-  frame.name = view.truth.family;
-  frame.camera = view.camera;
-  frame.depth = view.depth;
-  frame.masks.assign(view.masks.begin(), view.masks.end());
-  return frame;
-}
 
 RgbdFrame mirrored(RgbdFrame frame) {
   const auto flip = [&](auto& image) {
@@ -28,6 +19,7 @@ RgbdFrame mirrored(RgbdFrame frame) {
   };
   flip(frame.depth);
   flip(frame.masks);
+  flip(frame.color);
   frame.camera.cx = frame.camera.width - 1 - frame.camera.cx;
   return frame;
 }
@@ -59,11 +51,7 @@ std::pair<Graph, bool> decisions(const RgbdFrame& frame, const Options& options)
 class Invariance : public testing::TestWithParam<const char*> {};
 
 TEST_P(Invariance, OfTheContactGraph) {
-  SynthOptions options;
-  options.scene = GetParam();
-  options.view = 1;
-  Context context;
-  const RgbdFrame frame = frame_of(make_scene(options, context).views.front());
+  const RgbdFrame frame = frame_of(view_of(GetParam(), 1));
   const auto usual = decisions(frame, {});
   EXPECT_FALSE(usual.first.empty());
   EXPECT_EQ(decisions(mirrored(frame), {}), usual) << "mirrored";

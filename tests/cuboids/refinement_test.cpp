@@ -9,6 +9,8 @@
 namespace unseen::cuboids {
 namespace {
 
+const Admissible kAnything = [](const Arrangement&) { return true; };
+
 TEST(CloseContacts, LeavesNoGapAndNoOverlap) {
   const Problem problem = problem_of({box({0, 0, 0.102}, {0.3, 0.3, 0.2}), box({0.02, 0, 0.25}, {0.2, 0.2, 0.1}, 0.4)});
   Arrangement a = arrange(problem, {});
@@ -32,7 +34,7 @@ TEST(LowerResidual, MovesAnEdgeUnderTheCentreOfMass) {
   const double before = residual(a);
   ASSERT_GT(before, 1e-3);
   Context context;
-  lower_residual(problem, Rooms(2, Extension{}), held, a, context);
+  lower_residual(problem, Rooms(2, Extension{}), kAnything, held, a, context);
   EXPECT_LT(residual(a), 0.2 * before);
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_LT((a.boxes[i].half_size - problem.cuboids[i].initial.half_size).cwiseAbs().maxCoeff(), 0.007);
@@ -46,12 +48,39 @@ TEST(LowerResidual, GrowsAHiddenFaceUntilThePushIsBorne) {
   rooms[0][1] = 0.2;
   Arrangement a = arrange(problem, {});
   Context context;
-  lower_residual(problem, rooms, held, a, context);
+  lower_residual(problem, rooms, kAnything, held, a, context);
   const double edge = a.boxes[0].center.x() + a.boxes[0].half_size.x();
   EXPECT_GT(edge, a.boxes[1].center.x() + 0.1 * 0.05 - 1e-3);
   EXPECT_LT(edge, 0.1);  // not all the room
   const Structure s = structure_of(problem, a, touching_pairs(problem, a), held);
   EXPECT_GT(margin(s.bodies, s.contacts, 1e-6), 0.09);
+}
+
+TEST(LowerResidual, StaysWithinWhatIsAdmissible) {
+  const Problem problem = problem_of({box({0, 0, 0.1}, {0.1, 0.1, 0.2}), box({0.048, 0, 0.25}, {0.1, 0.1, 0.1})});
+  Rooms rooms(2, Extension{});
+  rooms[0][1] = 0.2;
+  Arrangement a = arrange(problem, {});
+  Context context;
+  const Admissible no_longer = [](const Arrangement& now) { return now.boxes[0].half_size.x() <= 0.05; };
+  lower_residual(problem, rooms, no_longer, std::vector<char>(3, 0), a, context);
+  EXPECT_LE(a.boxes[0].half_size.x(), 0.05);
+}
+
+TEST(Objects, ArePiecesThatAreRigidTogether) {
+  // A post and, 2 cm beside it, a piece in the air that belongs to it.
+  Problem problem = problem_of({box({0, 0, 0.2}, {0.2, 0.2, 0.4}), box({0.17, 0, 0.35}, {0.1, 0.1, 0.1}), box({1, 0, 0.35}, {0.1, 0.1, 0.1})});
+  problem.cuboids[0].object = problem.cuboids[1].object = 4;
+  problem.joints = joints_of(problem);
+  EXPECT_EQ(problem.joints, (std::vector<std::array<int, 2>>{{1, 2}}));
+  const auto residual = [&](std::vector<char> held) {
+    const Arrangement a = arrange(problem, {});
+    const Structure s = structure_of(problem, a, touching_pairs(problem, a), held);
+    return balance(s.bodies, s.contacts).residual;
+  };
+  EXPECT_LT(residual({0, 0, 0, 1}), 1e-6);
+  problem.joints.clear();
+  EXPECT_GT(residual({0, 0, 0, 1}), 0.9);
 }
 
 TEST(TouchingPairs, DoNotReachThroughAThirdBody) {
@@ -73,6 +102,7 @@ TEST(CloseHiddenGaps, MovesHiddenFacesOnlyAndToTheNearestBody) {
   rooms[0][4] = rooms[2][4] = 0.5;
   Problem hidden = problem_of(boxes);
   close_hidden_gaps(rooms, hidden);
+  EXPECT_NEAR(rooms[0][4], 0.488, 1e-12);
   EXPECT_NEAR(hidden.cuboids[0].initial.half_size.z(), 0.056, 1e-12);
   EXPECT_NEAR(hidden.cuboids[0].initial.center.z(), 0.056, 1e-12);
   // The third stands on the second already: it does not go on to the ground.
