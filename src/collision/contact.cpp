@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/contact.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace unseen::collision {
+namespace {
+
+using Corners = std::vector<Vec3>;
+
+Corners placed(const Solid& solid, const Vec3& p, const Quat& q) {
+  Corners all;
+  for (const Vec3& v : solid.hull.vertices) all.push_back(p + q * v);
+  if (all.empty()) all.push_back(p);  // a sphere: its centre
+  return all;
+}
+
+double lowest(const Corners& corners, const Vec3& n) {
+  double low = std::numeric_limits<double>::infinity();
+  for (const Vec3& c : corners) low = std::min(low, n.dot(c));
+  return low;
+}
+
+/// By how much `n` separates a (in front) from b (behind).
+double separation(const Corners& a, const Corners& b, const Vec3& n) { return lowest(a, n) + lowest(b, -n); }
+
+/// The corners that are lowest along `n`, within the tolerance.
+Corners lowest_corners(const Corners& corners, const Vec3& n, double tolerance) {
+  const double limit = lowest(corners, n) + tolerance;
+  Corners low;
+  for (const Vec3& c : corners)
+    if (n.dot(c) <= limit) low.push_back(c);
+  return low;
+}
+
+using Polygon = std::vector<Vec2>;
+
+/// Convex hull, counter-clockwise (Andrew's monotone chain); two corners for a segment, one for a point.
+Polygon convex(Polygon points) {
+  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
+  if (points.size() < 3) return points;
+  const auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) { return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x(); };
+  Polygon hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t start = hull.size();
+    for (const Vec2& p : points) {
+      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 1e-14) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+/// The part of a convex polygon (or segment, or point) within another convex one, widened by `margin` (Sutherland & Hodgman).
+Polygon within(Polygon subject, const Polygon& window, double margin) {
+  for (std::size_t i = 0; i < window.size() && window.size() >= 3; ++i) {
+    const Vec2 along = (window[(i + 1) % window.size()] - window[i]).normalized(), inward(-along.y(), along.x());
+    const auto depth = [&](const Vec2& p) { return inward.dot(p - window[i]) + margin; };
+    Polygon kept;
+    for (std::size_t j = 0; j < subject.size(); ++j) {
+      const Vec2 &from = subject[j], &to = subject[(j + 1) % subject.size()];
+      const double a = depth(from), b = depth(to);
+      if (a >= 0.0) kept.push_back(from);
+      if (a * b < 0.0) kept.push_back(from + (to - from) * (a / (a - b)));
+    }
+    subject = std::move(kept);
+  }
+  return subject;
+}
+
+/// Where two segments cross, or come nearest.
+Vec2 crossing(const Polygon& a, const Polygon& b) {
+  const Vec2 u = a[1] - a[0], v = b[1] - b[0], w = b[0] - a[0];
+  const double d = u.x() * v.y() - u.y() * v.x();
+  const double s = std::clamp((w.x() * v.y() - w.y() * v.x()) / d, 0.0, 1.0), t = std::clamp((w.x() * u.y() - w.y() * u.x()) / d, 0.0, 1.0);
+  return 0.5 * (a[0] + s * u + b[0] + t * v);
+}
+
+bool parallel(const Polygon& a, const Polygon& b) {
+  const Vec2 u = (a[1] - a[0]).normalized(), v = (b[1] - b[0]).normalized();
+  return std::abs(u.x() * v.y() - u.y() * v.x()) < 0.1;
+}
+
+/// What the two nearest features have in common, seen along the normal.
+Polygon common(const Polygon& a, const Polygon& b, double tolerance) {
+  if (a.size() == 1) return a;
+  if (b.size() == 1) return b;
+  if (a.size() == 2 && b.size() == 2 && !parallel(a, b)) return {crossing(a, b)};
+  const Polygon &small = a.size() < b.size() ? a : b, &large = a.size() < b.size() ? b : a;
+  if (large.size() >= 3) return within(small, large, tolerance);
+  // two segments side by side: the part of one that lies beside the other
+  const Vec2 along = (large[1] - large[0]).normalized();
+  const auto at = [&](const Vec2& p) { return along.dot(p - large[0]); };
+  const double length = at(large[1]);
+  const double from = std::clamp(std::min(at(small[0]), at(small[1])), 0.0, length), to = std::clamp(std::max(at(small[0]), at(small[1])), 0.0, length);
+  return {large[0] + along * from, large[0] + along * to};
+}
+
+/// Point and slack of a contact along `n` between the features nearest to it.
+void locate(const Corners& a, const Corners& b, double tolerance, Proximity& near) {
+  const Vec3& n = near.normal;
+  const Vec3 e1 = any_orthogonal(n), e2 = n.cross(e1);
+  const auto flat = [&](const Corners& corners) {
+    Polygon polygon;
+    for (const Vec3& c : corners) polygon.push_back({e1.dot(c), e2.dot(c)});
+    return convex(polygon);
+  };
+  const Corners low = lowest_corners(a, n, tolerance), high = lowest_corners(b, -n, tolerance);
+  Polygon patch = common(flat(low), flat(high), tolerance);
+  if (patch.empty()) patch = {0.5 * (flat(low)[0] + flat(high)[0])};
+  Vec2 center = Vec2::Zero();
+  for (const Vec2& p : patch) center += p / static_cast<double>(patch.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const Vec2& p : patch) spread += (p - center) * (p - center).transpose();
+  const double turn = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  near.axes.col(0) = n;
+  near.axes.col(1) = std::cos(turn) * e1 + std::sin(turn) * e2;
+  near.axes.col(2) = n.cross(near.axes.col(1));
+  near.slack.setZero();
+  const Vec3 middle = e1 * center.x() + e2 * center.y();
+  for (const Vec2& p : patch) {
+    const Vec3 off = e1 * p.x() + e2 * p.y() - middle;
+    for (int i = 1; i < 3; ++i) near.slack[i] = std::max(near.slack[i], std::abs(near.axes.col(i).dot(off)));
+  }
+  near.point_a = middle + n * lowest(a, n);
+  near.point_b = middle - n * lowest(b, -n);
+}
+
+/// Normals that a contact can have: of faces, or across an edge of each; towards a sphere, from the nearest point.
+std::vector<Vec3> candidates(const Solid& a, const Quat& q_a, const Corners& corners_a, const Solid& b, const Quat& q_b, const Corners& corners_b) {
+  std::vector<Vec3> all;
+  for (const Vec3& n : b.hull.normals) all.push_back(q_b * n);
+  for (const Vec3& n : a.hull.normals) all.push_back(-(q_a * n));
+  for (const Vec3& u : a.hull.edges)
+    for (const Vec3& v : b.hull.edges) {
+      const Vec3 n = (q_a * u).cross(q_b * v);
+      if (n.norm() > 1e-3) all.insert(all.end(), {n.normalized(), -n.normalized()});
+    }
+  if (!a.is_sphere() && !b.is_sphere()) return all;
+  // from each corner and each edge of the other to the sphere's centre
+  const Corners &centers = a.is_sphere() ? corners_a : corners_b, &others = a.is_sphere() ? corners_b : corners_a;
+  const Vec3 center = centers.front();
+  const double sign = a.is_sphere() ? 1.0 : -1.0;
+  for (const Vec3& c : others)
+    if ((center - c).norm() > 1e-12) all.push_back(sign * (center - c).normalized());
+  const Solid& polytope = a.is_sphere() ? b : a;
+  const Quat& q = a.is_sphere() ? q_b : q_a;
+  for (const Vec3& edge : polytope.hull.edges) {
+    const Vec3 e = q * edge;
+    for (const Vec3& c : others) {
+      const Vec3 off = (center - c) - e * e.dot(center - c);
+      if (off.norm() > 1e-12) all.push_back(sign * off.normalized());
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::optional<Proximity> nearest(const Solid& a, const Vec3& p_a, const Quat& q_a, const Solid& b, const Vec3& p_b, const Quat& q_b,
+                                 double tolerance) {
+  if (!a.known_shape || !b.known_shape) return std::nullopt;
+  const Corners corners_a = placed(a, p_a, q_a), corners_b = placed(b, p_b, q_b);
+  Proximity near;
+  near.gap = -std::numeric_limits<double>::infinity();
+  for (const Vec3& n : candidates(a, q_a, corners_a, b, q_b, corners_b)) {
+    const double gap = separation(corners_a, corners_b, n);
+    if (gap > near.gap + 1e-12) near.gap = gap, near.normal = n;
+  }
+  if (!std::isfinite(near.gap)) return std::nullopt;  // the centres of two spheres coincide
+  locate(corners_a, corners_b, tolerance, near);
+  near.point_a -= a.radius * near.normal;
+  near.point_b += b.radius * near.normal;
+  near.gap -= a.radius + b.radius;
+  return near;
+}
+
+Proximity nearest_to_plane(const Solid& a, const Vec3& p_a, const Quat& q_a, const Vec3& normal, double tolerance) {
+  Proximity near;
+  near.normal = normal;
+  const Corners corners = placed(a, p_a, q_a), low = lowest_corners(corners, normal, tolerance);
+  locate(corners, low, tolerance, near);
+  near.point_a -= a.radius * normal;
+  near.point_b = near.point_a;
+  return near;
+}
+
+}  // namespace unseen::collision

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <optional>
+
+#include "collision/problem.h"
+
+namespace unseen::collision {
+
+/// A body's place at the impact and its velocities just before and after. Camera coordinates.
+struct LinearFlight {
+  Vec3 p, v_before, v_after;
+};
+
+/// From linear equations: fx X − (u − cx) Z = 0 and the like, which known gravity makes inhomogeneous, and the depth from sizes. Robust by
+/// reweighting. Nothing if the points do not determine it.
+std::optional<LinearFlight> linear_flight(const Problem& problem, int body, double time);
+
+}  // namespace unseen::collision

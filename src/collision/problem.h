@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "collision/contact.h"
+#include "collision/mass_properties.h"
+#include "collision/orientations.h"
+#include "collision/terms.h"
+#include "unseen/collision/types.h"
+
+namespace unseen::collision {
+
+/// A body's centre in one frame, as an observation of the solver.
+struct PointObservation {
+  int body = 0;
+  bool after = false;      ///< the impact
+  int frame = 0;
+  double time = 0;         ///< s
+  Vec2 pixel = Vec2::Zero();
+  double depth = 0;        ///< m, from the projected size; 0 = unknown
+  double depth_sigma = 0;  ///< share of the depth; the common error of a flight's sizes is spread over its frames
+};
+
+/// An orientation as an observation; `q` maps the principal axes to the camera.
+struct OrientationObservation {
+  int body = 0;
+  bool after = false;
+  double time = 0;  ///< s
+  Quat q = Quat::Identity();
+};
+
+/// One impact of two bodies, or of one with something fixed, as the solver sees it. Camera coordinates, SI units.
+struct Problem {
+  Camera camera;
+  double gravity = 9.81;               ///< m/s²
+  Vec3 down = Vec3::UnitY();           ///< expected; unit
+  double down_sigma = 0.05;            ///< rad
+  std::array<Solid, 2> solids;
+  bool fixed = false;                  ///< the second body never moves
+  std::optional<Vec3> fixed_normal;    ///< of the fixed body, towards the first
+  std::optional<double> mass_ratio;    ///< known
+  std::array<double, 2> drag = {0, 0};  ///< 1/m
+  bool planar = false;                 ///< gravity-free, all in one plane parallel to the image
+  std::vector<PointObservation> points;
+  std::vector<OrientationObservation> orientations;
+  double pixel_sigma = 1.0;            ///< px
+  double orientation_sigma = 0.087;    ///< rad
+  bool friction = true;
+  Terms terms;
+
+  double inverse_mass(double ratio) const { return fixed ? 0.0 : 1.0 / ratio; }
+  /// Whether a body's turning is known from any observation.
+  bool turns(int body) const;
+};
+
+/// The unknowns. Momenta are per mass of their own body. The contact point and the impulse are those of the impact.
+struct State {
+  double time = 0;                 ///< of the impact, s
+  Vec3 down = Vec3::UnitY();
+  std::array<Vec3, 2> p, v, h;     ///< at the impact; v and h just before it
+  std::array<Quat, 2> q;
+  Vec3 x = Vec3::Zero();           ///< contact point
+  Vec3 impulse = Vec3::Zero();     ///< on the first body, of mass 1
+  double mass_ratio = 1.0;
+  std::array<Vec3, 2> v_after, h_after;  ///< free unknowns of the soft form; functions of the others in the exact one
+  std::optional<Vec3> normal;      ///< of the contact, from the second body to the first; none = along the impulse
+
+  State() : q{Quat::Identity(), Quat::Identity()} {
+    for (auto* pair : {&p, &v, &h, &v_after, &h_after}) pair->fill(Vec3::Zero());
+  }
+};
+
+}  // namespace unseen::collision

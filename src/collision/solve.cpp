@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/solve.h"
+
+#include <ceres/cost_function.h>
+#include <ceres/covariance.h>
+#include <ceres/manifold.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "collision/residuals.h"
+#include "collision/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+using Unknowns = std::array<double, kUnknowns>;
+
+/// The unknowns that nothing in the shot tells of, or that are given.
+std::vector<int> held_unknowns(const Problem& problem, bool hold_contact) {
+  std::vector<int> held;
+  const auto hold = [&](int from, int count) {
+    for (int i = 0; i < count; ++i) held.push_back(from + i);
+  };
+  if (problem.gravity == 0.0) hold(kDown, 2);
+  if (problem.fixed || problem.mass_ratio) hold(kLogMass, 1);
+  const bool any_turns = problem.turns(0) || problem.turns(1);
+  for (int o = 0; o < 2; ++o) {
+    const bool still = o == 1 && problem.fixed;
+    if (still) hold(kP + 3 * o, 3), hold(kV + 3 * o, 3);
+    if (still || !problem.turns(o)) hold(kTurn + 3 * o, 3), hold(kH + 3 * o, 3);
+    if (!problem.terms.soft || still) hold(kVAfter + 3 * o, 3);
+    if (!problem.terms.soft || still || !problem.turns(o)) hold(kHAfter + 3 * o, 3);
+  }
+  if (hold_contact || !any_turns) hold(kX, 3);
+  std::sort(held.begin(), held.end());
+  return held;
+}
+
+bool has_pose(const Problem& problem, int o) { return problem.solids[o].is_sphere() || (problem.solids[o].known_shape && problem.turns(o)); }
+
+/// Where the shapes meet in this state; nothing where a shape or its orientation is not known.
+std::optional<Proximity> touch_of(const Problem& problem, const State& state) {
+  const Solid& a = problem.solids[0];
+  const double tolerance = 0.03 * a.mass.extent;
+  if (!has_pose(problem, 0)) return std::nullopt;
+  if (problem.fixed) {
+    if (!problem.fixed_normal) return std::nullopt;
+    return nearest_to_plane(a, state.p[0], state.q[0], *problem.fixed_normal, tolerance);
+  }
+  if (!has_pose(problem, 1)) return std::nullopt;
+  return nearest(a, state.p[0], state.q[0], problem.solids[1], state.p[1], state.q[1], tolerance);
+}
+
+/// The contact's normal in this state, where it does not follow from the impulse.
+std::optional<Vec3> normal_of(const Problem& problem, const std::optional<Proximity>& touch) {
+  if (!problem.friction) return std::nullopt;
+  if (touch) return touch->normal;
+  if (problem.fixed && problem.fixed_normal) return problem.fixed_normal;
+  return std::nullopt;
+}
+
+struct Setup {
+  ceres::Problem ceres;
+  Unknowns unknowns = {};
+  std::vector<NamedBlock> blocks;
+};
+
+void set_up(const Problem& problem, const State& reference, const std::optional<Proximity>& touch, bool hold_contact, Setup& setup) {
+  setup.blocks = add_residuals(problem, reference, touch, setup.unknowns.data(), setup.ceres);
+  setup.ceres.SetManifold(setup.unknowns.data(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem, hold_contact)));
+}
+
+/// One descent; the contact's features stay as they are.
+bool descend(const Problem& problem, const std::optional<Proximity>& touch, bool hold_contact, int iterations, State& state, double& cost) {
+  const State reference = state;
+  Setup setup;
+  set_up(problem, reference, touch, hold_contact, setup);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = 1e-10;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &setup.ceres, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+  state = state_at(problem, reference, setup.unknowns.data());
+  cost = summary.final_cost;
+  return true;
+}
+
+std::map<std::string, double> term_sizes(const Problem& problem, const Fit& fit) {
+  Setup setup;
+  set_up(problem, fit.state, fit.touch, false, setup);
+  std::map<std::string, std::pair<double, int>> sums;
+  for (const NamedBlock& block : setup.blocks) {
+    std::array<double, 16> residuals = {};
+    double cost = 0.0;
+    if (!setup.ceres.EvaluateResidualBlock(block.id, false, &cost, residuals.data(), nullptr)) continue;
+    auto& [sum, count] = sums[block.term];
+    sum += 2.0 * cost;
+    count += setup.ceres.GetCostFunctionForResidualBlock(block.id)->num_residuals();
+  }
+  std::map<std::string, double> sizes;
+  for (const auto& [name, sum] : sums) sizes[name] = std::sqrt(sum.first / sum.second);
+  return sizes;
+}
+
+using Wide = ceres::Jet<double, kUnknowns>;
+
+StateT<Wide> wide_state(const Problem& problem, const State& state) {
+  std::array<Wide, kUnknowns> u;
+  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(0.0, i);
+  return unpack<Wide>(problem, state, u.data());
+}
+
+/// Value and deviation of a function of the unknowns.
+Estimate estimate(const Wide& value, const Eigen::MatrixXd& covariance) {
+  Estimate e;
+  e.value = value.a;
+  e.sd = std::sqrt(std::max(0.0, value.v.dot(covariance * value.v)));
+  e.low = e.value - 1.96 * e.sd;
+  e.high = e.value + 1.96 * e.sd;
+  return e;
+}
+
+}  // namespace
+
+Fit solve(const Problem& problem, const State& start) {
+  constexpr int kFirst = 30, kNext = 40, kTouches = 6;
+  Fit fit;
+  fit.state = start;
+  fit.state.normal.reset();
+  fit.usable = descend(problem, std::nullopt, true, kFirst, fit.state, fit.cost);
+  for (int i = 0; i < kTouches && fit.usable; ++i) {
+    const std::optional<Vec3> before = fit.state.normal;
+    fit.touch = touch_of(problem, fit.state);
+    fit.state.normal = normal_of(problem, fit.touch);
+    if (fit.touch && i == 0) fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
+    const double cost_before = fit.cost;
+    fit.usable = descend(problem, fit.touch, false, kNext, fit.state, fit.cost);
+    const bool same_normal = before.has_value() == fit.state.normal.has_value() && (!before || (*before - *fit.state.normal).norm() < 1e-6);
+    if (!fit.touch || (i > 0 && same_normal && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
+  }
+  if (fit.usable) fit.terms = term_sizes(problem, fit);
+  return fit;
+}
+
+void add_covariance(const Problem& problem, Fit& fit) {
+  Setup setup;
+  set_up(problem, fit.state, fit.touch, false, setup);
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;
+  options.null_space_rank = -1;
+  options.min_reciprocal_condition_number = 1e-14;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  const double* block = setup.unknowns.data();
+  fit.covariance = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  const std::vector<const double*> blocks = {block};
+  if (!covariance.Compute(blocks, &setup.ceres)) return;
+  Eigen::Matrix<double, kUnknowns, kUnknowns, Eigen::RowMajor> all;
+  if (covariance.GetCovarianceBlock(block, block, all.data())) fit.covariance = all;
+}
+
+Estimate restitution_of(const Problem& problem, const Fit& fit) {
+  return estimate(restitution<Wide>(problem, fit.state, wide_state(problem, fit.state)), fit.covariance);
+}
+
+Estimate mass_ratio_of(const Problem& problem, const Fit& fit) { return estimate(wide_state(problem, fit.state).mass_ratio, fit.covariance); }
+
+}  // namespace unseen::collision

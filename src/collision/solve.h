@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "collision/problem.h"
+
+namespace unseen::collision {
+
+/// A state that fits, and how well.
+struct Fit {
+  State state;
+  bool usable = false;
+  double cost = 0;                   ///< ½ χ², robust
+  std::optional<Proximity> touch;    ///< of the shapes at the impact, if they are known
+  std::map<std::string, double> terms;  ///< root mean square of each term's residuals, over their noise
+  Eigen::MatrixXd covariance;        ///< of the kUnknowns parameters; 0 for what was held; empty until asked for
+};
+
+/// The nearest minimum from `start`: first with the contact point midway between the bodies, then free, or where the shapes touch.
+Fit solve(const Problem& problem, const State& start);
+
+/// Fills in the covariance of a fit.
+void add_covariance(const Problem& problem, Fit& fit);
+
+/// Value and standard deviation (delta method) of restitution and mass ratio; the covariance must be there.
+Estimate restitution_of(const Problem& problem, const Fit& fit);
+Estimate mass_ratio_of(const Problem& problem, const Fit& fit);
+
+}  // namespace unseen::collision

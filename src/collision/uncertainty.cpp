@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/uncertainty.h"
+
+#include <algorithm>
+
+#include "collision/unknowns.h"
+#include "unseen/core/random.h"
+
+namespace unseen::collision {
+namespace {
+
+/// What each observation was off by, and where the solution has it.
+struct Residuals {
+  std::vector<Vec2> predicted, off;
+  std::vector<Quat> q_predicted;
+  std::vector<Vec3> turn;
+};
+
+Residuals residuals_of(const Problem& problem, const State& state) {
+  Residuals all;
+  const StateT<double> s = values_of(problem, state);
+  for (const PointObservation& seen : problem.points) {
+    all.predicted.push_back(problem.camera.project(position_at<double>(problem, s, seen.body, seen.after, seen.time)));
+    all.off.push_back(seen.pixel - all.predicted.back());
+  }
+  for (const OrientationObservation& seen : problem.orientations) {
+    all.q_predicted.push_back(orientation_at(problem, state, seen.body, seen.after, seen.time));
+    all.turn.push_back(rotation_vector<double>(seen.q * all.q_predicted.back().conjugate()));
+  }
+  return all;
+}
+
+/// The prediction with residuals drawn anew: runs of them, since neighbouring frames are off alike; few orientations tell little of their
+/// noise, so theirs is normal.
+Problem resampled(const Problem& problem, const Residuals& residuals, double scale, Random& random) {
+  constexpr std::size_t kRun = 4;
+  Problem drawn = problem;
+  const std::size_t count = drawn.points.size();
+  for (std::size_t i = 0; i < count; i += kRun) {
+    const std::size_t from = random.index(count);
+    const double sign = random.uniform() < 0.5 ? -1.0 : 1.0;
+    for (std::size_t j = i; j < std::min(count, i + kRun); ++j)
+      drawn.points[j].pixel = residuals.predicted[j] + sign * scale * residuals.off[(from + j - i) % count];
+  }
+  for (std::size_t i = 0; i < drawn.orientations.size(); ++i) {
+    const Vec3 turn = problem.orientation_sigma * Vec3(random.normal(), random.normal(), random.normal());
+    drawn.orientations[i].q = (rotation_by<double>(turn) * residuals.q_predicted[i]).normalized();
+  }
+  // the sizes of a flight are off together
+  std::map<std::pair<int, bool>, std::pair<double, int>> flights;
+  for (const PointObservation& p : problem.points) ++flights[{p.body, p.after}].second;
+  for (auto& [key, flight] : flights) flight.first = random.normal();
+  for (PointObservation& p : drawn.points) {
+    const auto& [shift, points] = flights[{p.body, p.after}];
+    p.depth *= std::exp(shift * p.depth_sigma / std::sqrt(static_cast<double>(points)));
+  }
+  return drawn;
+}
+
+double deviation(const std::vector<double>& values, double center) {
+  // from quantiles: a solve that went astray does not count
+  std::vector<double> off;
+  for (const double v : values) off.push_back(std::abs(v - center));
+  std::sort(off.begin(), off.end());
+  return off.empty() ? 0.0 : off[static_cast<std::size_t>(0.6827 * static_cast<double>(off.size() - 1))];
+}
+
+void widen(Estimate& e, double sd, double low, double high) {
+  e.sd = std::max(e.sd, sd);
+  e.low = std::max(low, e.value - 1.96 * e.sd);
+  e.high = std::min(high, e.value + 1.96 * e.sd);
+}
+
+}  // namespace
+
+Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& context) {
+  const Problem& problem = solution.problem;
+  add_covariance(problem, solution.fit);
+  Uncertain result{restitution_of(problem, solution.fit), mass_ratio_of(problem, solution.fit)};
+  result.restitution.value = std::clamp(result.restitution.value, 0.0, 1.0);
+  const Residuals residuals = residuals_of(problem, solution.fit.state);
+  const double unknowns = 18.0, count = 2.0 * static_cast<double>(problem.points.size());
+  const double scale = std::sqrt(count / std::max(4.0, count - unknowns));
+  std::vector<Problem> drawn;
+  Random random(static_cast<std::uint64_t>(seed));
+  for (int i = 0; i < resamples; ++i) drawn.push_back(resampled(problem, residuals, scale, random));
+  std::vector<double> c(drawn.size(), result.restitution.value), m(drawn.size(), result.mass_ratio.value);
+  parallel_blocks(context, drawn.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      context.check();
+      const Fit fit = solve(drawn[i], solution.fit.state);
+      if (!fit.usable) continue;
+      c[i] = std::clamp(restitution<double>(drawn[i], fit.state, values_of(drawn[i], fit.state)), 0.0, 1.0);
+      m[i] = fit.state.mass_ratio;
+    }
+  });
+  double c_spread = deviation(c, result.restitution.value), m_spread = deviation(m, result.mass_ratio.value);
+  for (const Alternative& other : solution.others) {  // half as likely as the best where χ² is as low
+    const double share = std::exp(-0.5 * other.excess);
+    c_spread = std::max(c_spread, share * std::abs(other.restitution - result.restitution.value) / 1.96);
+    m_spread = std::max(m_spread, share * std::abs(other.mass_ratio - result.mass_ratio.value) / 1.96);
+  }
+  widen(result.restitution, c_spread, 0.0, 1.0);
+  widen(result.mass_ratio, m_spread, 0.0, std::numeric_limits<double>::infinity());
+  return result;
+}
+
+}  // namespace unseen::collision

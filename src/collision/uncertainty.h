@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "collision/best_fit.h"
+
+namespace unseen::collision {
+
+struct Uncertain {
+  Estimate restitution, mass_ratio;
+};
+
+/// Value, deviation and 95 % interval of restitution and mass ratio: from the covariance, widened by what `resamples` solves on resampled
+/// residuals scatter and by the basins that explain the data alike. Fills in the fit's covariance.
+Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& context);
+
+}  // namespace unseen::collision
