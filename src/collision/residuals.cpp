@@ -2,10 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/residuals.h"
 
-#include <ceres/autodiff_cost_function.h>
 #include <ceres/loss_function.h>
+#include <ceres/sized_cost_function.h>
 
-#include "collision/turned_jet.h"
 #include "collision/unknowns.h"
 
 namespace unseen::collision {
@@ -22,13 +21,31 @@ struct Base {
   const State& reference;
 };
 
+/// Many terms of one kind: functions of few parts of the state, through which their derivatives go.
+constexpr int kFlightParts = 10;
+
+/// A centre's place, from place and velocity at the impact, down, and the impact's time.
+template <class T>
+Vec3T<T> flown(const Problem& problem, const PointObservation& seen, const std::array<T, kFlightParts>& in) {
+  const PointState<T> start{Vec3T<T>(in[0], in[1], in[2]), Vec3T<T>(in[3], in[4], in[5])};
+  return fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[seen.body]), T(seen.time) - in[9]).p;
+}
+
+template <class T>
+std::array<const T*, kFlightParts> flight_parts(const StateT<T>& s, int body, bool after) {
+  const Vec3T<T>&p = s.p[body], &v = after ? s.v_after[body] : s.v[body];
+  return {&p.x(), &p.y(), &p.z(), &v.x(), &v.y(), &v.z(), &s.down.x(), &s.down.y(), &s.down.z(), &s.time};
+}
+
 /// Reprojection of a centre, Eq. 5.22; px over noise.
 struct PointTerm : Base {
+  static constexpr int kParts = kFlightParts, kResiduals = 2;
   const PointObservation& seen;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
-    const Vec3T<T> p = position_at<T>(problem, s, seen.body, seen.after, seen.time);
+  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  template <class T>
+  bool of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
+    const Vec3T<T> p = flown<T>(problem, seen, in);
     if (value_of(p.z()) < 1e-3) return false;
     r[0] = (p.x() / p.z() * problem.camera.fx + problem.camera.cx - seen.pixel.x()) / problem.pixel_sigma;
     r[1] = (p.y() / p.z() * problem.camera.fy + problem.camera.cy - seen.pixel.y()) / problem.pixel_sigma;
@@ -38,12 +55,14 @@ struct PointTerm : Base {
 
 /// Depth from the projected size, Eq. 5.23.
 struct DepthTerm : Base {
+  static constexpr int kParts = kFlightParts, kResiduals = 1;
   const PointObservation& seen;
   template <class T>
-  bool operator()(const T* u, T* r) const {
+  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  template <class T>
+  bool of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     using std::log;
-    const StateT<T> s = unpack<T>(problem, reference, u);
-    const Vec3T<T> p = position_at<T>(problem, s, seen.body, seen.after, seen.time);
+    const Vec3T<T> p = flown<T>(problem, seen, in);
     if (value_of(p.z()) < 1e-3) return false;
     r[0] = log(p.z() / seen.depth) / seen.depth_sigma;
     return true;
@@ -52,12 +71,27 @@ struct DepthTerm : Base {
 
 /// Geodesic distance to an orientation seen, for Eq. 5.25.
 struct OrientationTerm : Base {
+  static constexpr int kParts = 7, kResiduals = 3;
   const OrientationObservation& seen;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
-    const int o = seen.body;
-    const QuatT<T> q = turned_lean<T>(s.q[o], seen.after ? s.h_after[o] : s.h[o], problem.solids[o].mass.inertia, T(seen.time) - s.time);
+  std::array<const T*, kParts> parts(const StateT<T>& s) const {
+    const Vec3T<T>&turn = s.turn[seen.body], &h = seen.after ? s.h_after[seen.body] : s.h[seen.body];
+    return {&turn.x(), &turn.y(), &turn.z(), &h.x(), &h.y(), &h.z(), &s.time};
+  }
+  template <class T>
+  bool of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>& s) const {
+    const Vec3& inertia = problem.solids[seen.body].mass.inertia;
+    const Vec3 h(value_of(in[3]), value_of(in[4]), value_of(in[5]));
+    QuatT<T> q;
+    if constexpr (std::is_same_v<T, double>) {
+      q = turned<double>(s.q[seen.body], h, inertia, seen.time - in[6]);
+    } else {
+      // Turning the start and the momentum alike turns the end alike: derivatives along the momentum are enough.
+      const auto [end, along_h] = turned_with_derivative(s.q[seen.body], h, inertia, seen.time - in[6].a);
+      const Vec3T<T> turn(in[0], in[1], in[2]), step = Vec3T<T>(in[3], in[4], in[5]) - h.cast<T>() - turn.cross(h.cast<T>());
+      const Vec3T<T> theta = turn + along_h.template cast<T>() * step - angular_velocity<double>(end, h, inertia).template cast<T>() * (in[6] - in[6].a);
+      q = rotation_by<T>(theta) * end.template cast<T>();
+    }
     const Vec3T<T> off = rotation_vector<T>(q * seen.q.conjugate().cast<T>());
     for (int i = 0; i < 3; ++i) r[i] = off[i] / problem.orientation_sigma;
     return true;
@@ -66,102 +100,96 @@ struct OrientationTerm : Base {
 
 /// The camera's down is only about right, for Eq. 5.18.
 struct GravityTerm : Base {
+  static constexpr int kResiduals = 3;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
+  void of_state(const StateT<T>& s, T* r) const {
     const Vec3T<T> tilt = problem.down.cast<T>().cross(s.down);
     for (int i = 0; i < 3; ++i) r[i] = tilt[i] / problem.down_sigma;
-    return true;
   }
 };
 
 /// An impact takes energy, Eq. 5.19.
 struct EnergyTerm : Base {
+  static constexpr int kResiduals = 1;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
+  void of_state(const StateT<T>& s, T* r) const {
     const T before = kinetic_energy<T>(problem, s, false), growth = kinetic_energy<T>(problem, s, true) - before;
     r[0] = value_of(growth) > 0.0 ? growth / (before + 1e-9) / kBound : T(0.0);
-    return true;
   }
 };
 
 /// 0 ≤ c ≤ 1, Eq. 5.21.
 struct RestitutionTerm : Base {
+  static constexpr int kResiduals = 1;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const T c = restitution<T>(problem, reference, unpack<T>(problem, reference, u));
+  void of_state(const StateT<T>& s, T* r) const {
+    const T c = restitution<T>(problem, reference, s);
     r[0] = value_of(c) < 0.0 ? c / kBound : value_of(c) > 1.0 ? (c - 1.0) / kBound : T(0.0);
-    return true;
   }
 };
 
 /// Shapes unknown: the contact point is near the middle, which fixes where along the impulse it is.
 struct MidpointTerm : Base {
+  static constexpr int kResiduals = 3;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
+  void of_state(const StateT<T>& s, T* r) const {
     const Vec3T<T> middle = problem.fixed ? s.p[0] : Vec3T<T>((s.p[0] + s.p[1]) * 0.5), off = s.x - middle;
     const double size = problem.solids[0].mass.extent + problem.solids[1].mass.extent;
     for (int i = 0; i < 3; ++i) r[i] = off[i] / (kMidpointSigma * size);
-    return true;
   }
 };
 
 /// Shapes known: the surfaces touch, and the contact point lies on both, as far as edges or faces leave it no slack.
 struct TouchTerm : Base {
+  static constexpr int kResiduals = 4;
   Proximity touch;
   std::array<Vec3, 2> local;  // the surface points in the principal frames
   double sigma;               // m
 
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
+  void of_state(const StateT<T>& s, T* r) const {
     const Vec3T<T> a = s.p[0] + s.q[0] * local[0].cast<T>();
     const Vec3T<T> b = problem.fixed ? a : Vec3T<T>(s.p[1] + s.q[1] * local[1].cast<T>());
     r[0] = touch.normal.cast<T>().dot(a - b) / sigma;
     const Vec3T<T> off = touch.axes.transpose().cast<T>() * (s.x - (a + b) * 0.5);
     for (int i = 0; i < 3; ++i) r[1 + i] = off[i] / (sigma + 0.6 * touch.slack[i]);
-    return true;
   }
 };
 
 /// Gravity-free shots: both bodies move in one plane parallel to the image.
 struct PlanarTerm : Base {
+  static constexpr int kResiduals = 5;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
+  void of_state(const StateT<T>& s, T* r) const {
     constexpr double kSpeed = 1e-3, kDepth = 1e-3;  // m/s, m
     for (int o = 0; o < 2; ++o) {
       r[2 * o] = s.v[o].z() / kSpeed;
       r[2 * o + 1] = s.v_after[o].z() / kSpeed;
     }
     r[4] = problem.fixed ? T(0.0) : (s.p[0].z() - s.p[1].z()) / kDepth;
-    return true;
   }
 };
 
 /// Linear and angular momentum are conserved, Eq. 5.16; soft form.
 struct MomentumTerm : Base {
+  static constexpr int kResiduals = 6;
   double weight;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
+  void of_state(const StateT<T>& s, T* r) const {
     const T m = s.mass_ratio;
     const Vec3T<T> dv_a = s.v_after[0] - s.v[0], dv_b = (s.v_after[1] - s.v[1]) * m;
     const Vec3T<T> linear = dv_a + dv_b;
     const Vec3T<T> angular = s.p[0].cross(dv_a) + s.h_after[0] - s.h[0] + s.p[1].cross(dv_b) + (s.h_after[1] - s.h[1]) * m;
     for (int i = 0; i < 3; ++i) r[i] = linear[i] * weight, r[3 + i] = angular[i] * weight;
-    return true;
   }
 };
 
 /// The impulse explains every change, Eq. 5.17; soft form.
 struct ImpulseTerm : Base {
+  static constexpr int kResiduals = 12;
   double weight;
   template <class T>
-  bool operator()(const T* u, T* r) const {
-    const StateT<T> s = unpack<T>(problem, reference, u);
+  void of_state(const StateT<T>& s, T* r) const {
     for (int o = 0; o < 2; ++o) {
       const T mass = o == 0 ? T(1.0) : s.mass_ratio;
       const Vec3T<T> j = o == 0 ? s.impulse : Vec3T<T>(-s.impulse);
@@ -170,23 +198,71 @@ struct ImpulseTerm : Base {
       if (o == 1 && problem.fixed) linear *= T(0.0), angular *= T(0.0);
       for (int i = 0; i < 3; ++i) r[6 * o + i] = linear[i] * weight, r[6 * o + 3 + i] = angular[i] * weight;
     }
+  }
+};
+
+using Wide = ceres::Jet<double, kUnknowns>;
+
+/// A term as a cost function; the state and its derivatives come from the evaluation that is under way.
+template <class Term>
+class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
+ public:
+  TermCost(Term term, const Evaluation& evaluation) : term_(std::move(term)), evaluation_(evaluation) {}
+
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    constexpr int kResiduals = Term::kResiduals;
+    if constexpr (requires { Term::kParts; }) {
+      constexpr int kParts = Term::kParts;
+      if (!jacobians || !jacobians[0]) {
+        std::array<double, kParts> in;
+        const auto parts = term_.parts(evaluation_.state);
+        for (int i = 0; i < kParts; ++i) in[i] = *parts[i];
+        return term_.of_parts(in, residuals, evaluation_.state);
+      }
+      using Lean = ceres::Jet<double, kParts>;
+      std::array<Lean, kParts> in;
+      const auto parts = term_.parts(evaluation_.wide);
+      for (int i = 0; i < kParts; ++i) in[i] = Lean(parts[i]->a, i);
+      std::array<Lean, kResiduals> r;
+      if (!term_.of_parts(in, r.data(), evaluation_.state)) return false;
+      Eigen::Map<Eigen::Matrix<double, kResiduals, kUnknowns, Eigen::RowMajor>> jacobian(jacobians[0]);
+      for (int k = 0; k < kResiduals; ++k) {
+        residuals[k] = r[k].a;
+        jacobian.row(k).setZero();
+        for (int i = 0; i < kParts; ++i) jacobian.row(k) += r[k].v[i] * parts[i]->v.transpose();
+      }
+    } else {
+      if (!jacobians || !jacobians[0]) {
+        term_.of_state(evaluation_.state, residuals);
+        return true;
+      }
+      std::array<Wide, kResiduals> r;
+      term_.of_state(evaluation_.wide, r.data());
+      for (int k = 0; k < kResiduals; ++k) {
+        residuals[k] = r[k].a;
+        Eigen::Map<Eigen::Matrix<double, kUnknowns, 1>>(jacobians[0] + k * kUnknowns) = r[k].v;
+      }
+    }
     return true;
   }
+
+ private:
+  Term term_;
+  const Evaluation& evaluation_;
 };
 
 class Adder {
  public:
-  Adder(double* unknowns, ceres::Problem& ceres) : unknowns_(unknowns), ceres_(ceres) {}
+  Adder(Evaluation& evaluation, ceres::Problem& ceres) : evaluation_(evaluation), ceres_(ceres) {}
 
-  template <int kResiduals, class Term>
+  template <class Term>
   void add(const std::string& name, Term term, ceres::LossFunction* loss = nullptr) {
-    auto* cost = new ceres::AutoDiffCostFunction<Term, kResiduals, kUnknowns>(new Term(std::move(term)));
-    blocks.push_back({name, ceres_.AddResidualBlock(cost, loss, unknowns_)});
+    blocks.push_back({name, ceres_.AddResidualBlock(new TermCost<Term>(std::move(term), evaluation_), loss, evaluation_.unknowns.data())});
   }
   std::vector<NamedBlock> blocks;
 
  private:
-  double* unknowns_;
+  Evaluation& evaluation_;
   ceres::Problem& ceres_;
 };
 
@@ -197,34 +273,45 @@ double touch_sigma(const Problem& problem) {
 
 }  // namespace
 
-std::vector<NamedBlock> add_residuals(const Problem& problem, const State& reference, const std::optional<Proximity>& touch, double* unknowns,
-                                      ceres::Problem& ceres) {
+void Evaluation::PrepareForEvaluation(bool jacobians, bool new_point) {
+  if (!new_point && (!jacobians || has_derivatives)) return;
+  state = unpack<double>(problem, reference, unknowns.data());
+  has_derivatives = jacobians;
+  if (!jacobians) return;
+  std::array<Wide, kUnknowns> u;
+  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(unknowns[i], i);
+  wide = unpack<Wide>(problem, reference, u.data());
+}
+
+std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Evaluation& evaluation, ceres::Problem& ceres) {
+  const Problem& problem = evaluation.problem;
+  const State& reference = evaluation.reference;
   const Base base{problem, reference};
   const Terms& terms = problem.terms;
-  Adder adder(unknowns, ceres);
+  Adder adder(evaluation, ceres);
   for (const PointObservation& seen : problem.points) {
-    adder.add<2>("points", PointTerm{base, seen}, new ceres::HuberLoss(kPointHuber));
-    if (terms.size && seen.depth > 0.0) adder.add<1>("size", DepthTerm{base, seen}, new ceres::HuberLoss(1.0));
+    adder.add("points", PointTerm{base, seen}, new ceres::HuberLoss(kPointHuber));
+    if (terms.size && seen.depth > 0.0) adder.add("size", DepthTerm{base, seen}, new ceres::HuberLoss(1.0));
   }
   if (terms.orientation)
     for (const OrientationObservation& seen : problem.orientations)
-      adder.add<3>("orientation", OrientationTerm{base, seen}, new ceres::HuberLoss(kOrientationHuber));
-  if (terms.gravity && problem.gravity > 0.0) adder.add<3>("gravity", GravityTerm{base});
-  if (terms.energy) adder.add<1>("energy", EnergyTerm{base});
-  if (terms.restitution) adder.add<1>("restitution", RestitutionTerm{base});
-  if (problem.planar) adder.add<5>("planar", PlanarTerm{base});
+      adder.add("orientation", OrientationTerm{base, seen}, new ceres::HuberLoss(kOrientationHuber));
+  if (terms.gravity && problem.gravity > 0.0) adder.add("gravity", GravityTerm{base});
+  if (terms.energy) adder.add("energy", EnergyTerm{base});
+  if (terms.restitution) adder.add("restitution", RestitutionTerm{base});
+  if (problem.planar) adder.add("planar", PlanarTerm{base});
   if (touch)
-    adder.add<4>("touch", TouchTerm{base, *touch,
+    adder.add("touch", TouchTerm{base, *touch,
                                     {reference.q[0].conjugate() * (touch->point_a - reference.p[0]),
                                      reference.q[1].conjugate() * (touch->point_b - reference.p[1])},
                                     touch_sigma(problem)});
   else
-    adder.add<3>("midpoint", MidpointTerm{base});
+    adder.add("midpoint", MidpointTerm{base});
   if (terms.soft) {
     // The thesis weighs by 10 against the mean squared reprojection error in pixels; here errors are over noise and summed.
     const double weight = std::sqrt(10.0 * static_cast<double>(problem.points.size())) / problem.pixel_sigma;
-    if (terms.momentum && !problem.fixed) adder.add<6>("momentum", MomentumTerm{base, weight});
-    if (terms.impulse) adder.add<12>("impulse", ImpulseTerm{base, 0.5 * weight});
+    if (terms.momentum && !problem.fixed) adder.add("momentum", MomentumTerm{base, weight});
+    if (terms.impulse) adder.add("impulse", ImpulseTerm{base, 0.5 * weight});
   }
   return adder.blocks;
 }

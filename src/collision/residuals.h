@@ -2,14 +2,16 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <ceres/evaluation_callback.h>
 #include <ceres/problem.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "collision/contact.h"
-#include "collision/problem.h"
+#include "collision/unknowns.h"
 
 namespace unseen::collision {
 
@@ -19,9 +21,21 @@ struct NamedBlock {
   ceres::ResidualBlockId id = nullptr;
 };
 
-/// Adds all terms of the problem to a Ceres problem over the kUnknowns numbers at `unknowns`, steps from `reference`. `touch` is where the
-/// shapes meet at the impact, if they are known. Both references must outlive it.
-std::vector<NamedBlock> add_residuals(const Problem& problem, const State& reference, const std::optional<Proximity>& touch, double* unknowns,
-                                      ceres::Problem& ceres);
+/// The unknowns and the state at them, made once for all terms of an evaluation.
+struct Evaluation : ceres::EvaluationCallback {
+  Evaluation(const Problem& problem, const State& reference) : problem(problem), reference(reference) {}
+  void PrepareForEvaluation(bool jacobians, bool new_point) override;
+
+  const Problem& problem;
+  const State& reference;  ///< the unknowns are steps from it
+  std::array<double, kUnknowns> unknowns = {};
+  StateT<double> state;
+  StateT<ceres::Jet<double, kUnknowns>> wide;  ///< with derivatives, if they were asked for
+  bool has_derivatives = false;
+};
+
+/// Adds all terms of the problem to a Ceres problem that has `evaluation` as its callback. `touch` is where the shapes meet at the
+/// impact, if they are known.
+std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Evaluation& evaluation, ceres::Problem& ceres);
 
 }  // namespace unseen::collision

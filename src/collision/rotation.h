@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "collision/scalar.h"
 
@@ -49,12 +50,12 @@ Vec3T<T> angular_velocity(const QuatT<T>& q, const Vec3T<T>& h, const Eigen::Vec
 /// methods on manifolds", 1999) of at most `kTurn` rad; exact for a sphere.
 template <class T>
 QuatT<T> turned(QuatT<T> q, const Vec3T<T>& h, const Eigen::Vector3d& inertia, const T& dt) {
-  constexpr double kTurn = 0.15;
+  constexpr double kTurn = 0.25;
   if (inertia.maxCoeff() - inertia.minCoeff() <= 1e-12 * inertia.maxCoeff()) return rotation_by<T>(h * (dt / inertia.x())) * q;
   double square = 0.0;
   for (int i = 0; i < 3; ++i) square += value_of(h[i]) * value_of(h[i]);
   const double angle = std::sqrt(square) / inertia.minCoeff() * std::abs(value_of(dt));
-  const int steps = std::clamp(static_cast<int>(std::ceil(angle / kTurn)), 1, 4000);
+  const int steps = std::clamp(static_cast<int>(std::ceil(angle / kTurn)), 1, 400);
   const T step = dt / static_cast<double>(steps);
   for (int i = 0; i < steps; ++i) {
     const Vec3T<T> k1 = angular_velocity<T>(q, h, inertia) * step;
@@ -66,5 +67,9 @@ QuatT<T> turned(QuatT<T> q, const Vec3T<T>& h, const Eigen::Vector3d& inertia, c
   q.normalize();
   return q;
 }
+
+/// turned(), and how the end turns (a rotation vector) with the momentum.
+std::pair<Eigen::Quaterniond, Eigen::Matrix3d> turned_with_derivative(const Eigen::Quaterniond& q, const Eigen::Vector3d& h,
+                                                                      const Eigen::Vector3d& inertia, double dt);
 
 }  // namespace unseen::collision

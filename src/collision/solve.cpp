@@ -16,10 +16,10 @@
 namespace unseen::collision {
 namespace {
 
-using Unknowns = std::array<double, kUnknowns>;
+constexpr double kMostLogMass = 5.0;  // a step in the mass ratio is at most by this factor's logarithm
 
 /// The unknowns that nothing in the shot tells of, or that are given.
-std::vector<int> held_unknowns(const Problem& problem, bool hold_contact) {
+std::vector<int> held_unknowns(const Problem& problem) {
   std::vector<int> held;
   const auto hold = [&](int from, int count) {
     for (int i = 0; i < count; ++i) held.push_back(from + i);
@@ -34,7 +34,7 @@ std::vector<int> held_unknowns(const Problem& problem, bool hold_contact) {
     if (!problem.terms.soft || still) hold(kVAfter + 3 * o, 3);
     if (!problem.terms.soft || still || !problem.turns(o)) hold(kHAfter + 3 * o, 3);
   }
-  if (hold_contact || !any_turns) hold(kX, 3);
+  if (!any_turns) hold(kX, 3);
   std::sort(held.begin(), held.end());
   return held;
 }
@@ -62,22 +62,32 @@ std::optional<Vec3> normal_of(const Problem& problem, const std::optional<Proxim
   return std::nullopt;
 }
 
+/// A Ceres problem with the evaluation that its terms share.
 struct Setup {
+  Setup(const Problem& problem, const State& reference, const std::optional<Proximity>& touch)
+      : evaluation(problem, reference), ceres(options()), blocks(add_residuals(touch, evaluation, ceres)) {
+    ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem)));
+    ceres.SetParameterLowerBound(unknowns(), kLogMass, -kMostLogMass);
+    ceres.SetParameterUpperBound(unknowns(), kLogMass, kMostLogMass);
+  }
+  double* unknowns() { return evaluation.unknowns.data(); }
+
+  Evaluation evaluation;
   ceres::Problem ceres;
-  Unknowns unknowns = {};
   std::vector<NamedBlock> blocks;
+
+ private:
+  ceres::Problem::Options options() {
+    ceres::Problem::Options options;
+    options.evaluation_callback = &evaluation;
+    return options;
+  }
 };
 
-void set_up(const Problem& problem, const State& reference, const std::optional<Proximity>& touch, bool hold_contact, Setup& setup) {
-  setup.blocks = add_residuals(problem, reference, touch, setup.unknowns.data(), setup.ceres);
-  setup.ceres.SetManifold(setup.unknowns.data(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem, hold_contact)));
-}
-
 /// One descent; the contact's features stay as they are.
-bool descend(const Problem& problem, const std::optional<Proximity>& touch, bool hold_contact, int iterations, State& state, double& cost) {
+bool descend(const Problem& problem, const std::optional<Proximity>& touch, int iterations, State& state, double& cost) {
   const State reference = state;
-  Setup setup;
-  set_up(problem, reference, touch, hold_contact, setup);
+  Setup setup(problem, reference, touch);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = iterations;
@@ -87,19 +97,19 @@ bool descend(const Problem& problem, const std::optional<Proximity>& touch, bool
   ceres::Solver::Summary summary;
   ceres::Solve(options, &setup.ceres, &summary);
   if (!summary.IsSolutionUsable()) return false;
-  state = state_at(problem, reference, setup.unknowns.data());
+  state = state_at(problem, reference, setup.unknowns());
   cost = summary.final_cost;
   return true;
 }
 
 std::map<std::string, double> term_sizes(const Problem& problem, const Fit& fit) {
-  Setup setup;
-  set_up(problem, fit.state, fit.touch, false, setup);
+  Setup setup(problem, fit.state, fit.touch);
+  setup.evaluation.PrepareForEvaluation(false, true);
   std::map<std::string, std::pair<double, int>> sums;
   for (const NamedBlock& block : setup.blocks) {
     std::array<double, 16> residuals = {};
     double cost = 0.0;
-    if (!setup.ceres.EvaluateResidualBlock(block.id, false, &cost, residuals.data(), nullptr)) continue;
+    if (!setup.ceres.EvaluateResidualBlockAssumingParametersUnchanged(block.id, false, &cost, residuals.data(), nullptr)) continue;
     auto& [sum, count] = sums[block.term];
     sum += 2.0 * cost;
     count += setup.ceres.GetCostFunctionForResidualBlock(block.id)->num_residuals();
@@ -134,14 +144,19 @@ Fit solve(const Problem& problem, const State& start) {
   Fit fit;
   fit.state = start;
   fit.state.normal.reset();
-  fit.usable = descend(problem, std::nullopt, true, kFirst, fit.state, fit.cost);
+  if (!problem.terms.soft && !problem.orientations.empty()) {  // momenta on both sides first, then the impulse that joins them
+    Problem apart = problem;
+    apart.terms.soft = true;
+    if (!descend(apart, std::nullopt, kFirst, fit.state, fit.cost)) fit.state = start;
+  }
+  fit.usable = descend(problem, std::nullopt, kFirst, fit.state, fit.cost);
   for (int i = 0; i < kTouches && fit.usable; ++i) {
     const std::optional<Vec3> before = fit.state.normal;
     fit.touch = touch_of(problem, fit.state);
     fit.state.normal = normal_of(problem, fit.touch);
     if (fit.touch && i == 0) fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
     const double cost_before = fit.cost;
-    fit.usable = descend(problem, fit.touch, false, kNext, fit.state, fit.cost);
+    fit.usable = descend(problem, fit.touch, kNext, fit.state, fit.cost);
     const bool same_normal = before.has_value() == fit.state.normal.has_value() && (!before || (*before - *fit.state.normal).norm() < 1e-6);
     if (!fit.touch || (i > 0 && same_normal && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
   }
@@ -150,15 +165,14 @@ Fit solve(const Problem& problem, const State& start) {
 }
 
 void add_covariance(const Problem& problem, Fit& fit) {
-  Setup setup;
-  set_up(problem, fit.state, fit.touch, false, setup);
+  Setup setup(problem, fit.state, fit.touch);
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
   options.null_space_rank = -1;
   options.min_reciprocal_condition_number = 1e-14;
   options.num_threads = 1;
   ceres::Covariance covariance(options);
-  const double* block = setup.unknowns.data();
+  const double* block = setup.unknowns();
   fit.covariance = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
   const std::vector<const double*> blocks = {block};
   if (!covariance.Compute(blocks, &setup.ceres)) return;

@@ -19,7 +19,7 @@ struct Fit {
   Eigen::MatrixXd covariance;        ///< of the kUnknowns parameters; 0 for what was held; empty until asked for
 };
 
-/// The nearest minimum from `start`: first with the contact point midway between the bodies, then free, or where the shapes touch.
+/// The nearest minimum from `start`: first with the contact point near the middle of the bodies, then, if they are known, where the shapes touch.
 Fit solve(const Problem& problem, const State& start);
 
 /// Fills in the covariance of a fit.

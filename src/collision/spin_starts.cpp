@@ -16,42 +16,45 @@ constexpr int kMostTurns = 3;      // between two orientations
 
 /// Gauss–Newton over orientation and momentum at the first observation's time.
 SpinGuess refined(const std::vector<const OrientationObservation*>& seen, const Vec3& inertia, double sigma, SpinGuess guess) {
-  using Jet6 = ceres::Jet<double, 6>;
   constexpr int kRounds = 12;
-  double damping = 1e-6;
-  const auto residuals = [&](const SpinGuess& g, Eigen::MatrixXd* jacobian) {
+  const auto residuals = [&](const SpinGuess& g) {
     Eigen::VectorXd r(3 * seen.size());
-    QuatT<Jet6> q = rotation_by<Jet6>(Vec3T<Jet6>(Jet6(0.0, 0), Jet6(0.0, 1), Jet6(0.0, 2))) * g.q.cast<Jet6>();
-    const Vec3T<Jet6> h(Jet6(g.h.x(), 3), Jet6(g.h.y(), 4), Jet6(g.h.z(), 5));
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      const QuatT<Jet6> there = turned<Jet6>(q, h, inertia, Jet6(seen[i]->time - seen[0]->time));
-      const Vec3T<Jet6> off = rotation_vector<Jet6>(there * seen[i]->q.conjugate().cast<Jet6>());
-      for (int k = 0; k < 3; ++k) {
-        r[3 * i + k] = off[k].a / sigma;
-        if (jacobian) jacobian->row(3 * i + k) = off[k].v.transpose() / sigma;
-      }
+      const Quat there = turned<double>(g.q, g.h, inertia, seen[i]->time - seen[0]->time);
+      r.segment<3>(3 * i) = rotation_vector<double>(there * seen[i]->q.conjugate()) / sigma;
     }
     return r;
   };
-  Eigen::MatrixXd jacobian(3 * seen.size(), 6);
-  Eigen::VectorXd r = residuals(guess, &jacobian);
+  const auto jacobian = [&](const SpinGuess& g) {
+    Eigen::MatrixXd j(3 * seen.size(), 6);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const Mat3 along = turned_with_derivative(g.q, g.h, inertia, seen[i]->time - seen[0]->time).second;
+      Mat3 cross;
+      cross << 0, -g.h.z(), g.h.y(), g.h.z(), 0, -g.h.x(), -g.h.y(), g.h.x(), 0;
+      j.block<3, 3>(3 * i, 0) = (Mat3::Identity() + along * cross) / sigma;  // turning the start alone
+      j.block<3, 3>(3 * i, 3) = along / sigma;
+    }
+    return j;
+  };
+  double damping = 1e-6;
+  Eigen::VectorXd r = residuals(guess);
+  Eigen::MatrixXd j = jacobian(guess);
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    Eigen::MatrixXd normal = j.transpose() * j;
     normal.diagonal() *= 1.0 + damping;
     normal.diagonal().array() += 1e-12;
-    const Eigen::VectorXd step = normal.ldlt().solve(-jacobian.transpose() * r);
+    const Eigen::VectorXd step = normal.ldlt().solve(-j.transpose() * r);
     if (!step.allFinite()) break;
     SpinGuess next = guess;
     next.q = (rotation_by<double>(Vec3(step.head<3>())) * guess.q).normalized();
     next.h += step.tail<3>();
-    const Eigen::VectorXd r_next = residuals(next, nullptr);
-    if (r_next.squaredNorm() < r.squaredNorm()) {
-      guess = next;
-      r = residuals(guess, &jacobian);
-      damping = std::max(1e-9, damping * 0.1);
-    } else {
-      damping = std::min(1e6, std::max(1e-3, damping * 10.0));
-    }
+    const Eigen::VectorXd r_next = residuals(next);
+    const bool better = r_next.squaredNorm() < r.squaredNorm();
+    damping = better ? std::max(1e-9, damping * 0.1) : std::min(1e6, std::max(1e-3, damping * 10.0));
+    if (!better) continue;
+    guess = next;
+    r = r_next;
+    j = jacobian(guess);
   }
   guess.cost = 0.5 * r.squaredNorm();
   return guess;

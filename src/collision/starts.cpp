@@ -7,6 +7,7 @@
 
 #include "collision/linear_flights.h"
 #include "collision/rotation.h"
+#include "collision/solve.h"
 #include "collision/spin_starts.h"
 
 namespace unseen::collision {
@@ -15,7 +16,7 @@ namespace {
 /// A body's turning through the impact: at it, and the lever (across the impulse) that the change of momentum asks for.
 struct Turning {
   Quat q = Quat::Identity();
-  Vec3 h = Vec3::Zero(), lever = Vec3::Zero();
+  Vec3 h = Vec3::Zero(), h_after = Vec3::Zero(), lever = Vec3::Zero();
   bool has_lever = false;
   double cost = 0;
 };
@@ -28,7 +29,7 @@ std::vector<Turning> turnings(const Problem& problem, int body, double time, con
   std::vector<Turning> all;
   if (before.empty() && after.empty()) return {Turning{}};
   if (before.empty() || after.empty()) {
-    for (const SpinGuess& guess : before.empty() ? after : before) all.push_back({guess.q, guess.h, Vec3::Zero(), false, guess.cost});
+    for (const SpinGuess& guess : before.empty() ? after : before) all.push_back({guess.q, guess.h, guess.h, Vec3::Zero(), false, guess.cost});
     return all;
   }
   constexpr double kMeet = 0.35;  // rad: how far extrapolated orientations may be off at the impact
@@ -37,7 +38,7 @@ std::vector<Turning> turnings(const Problem& problem, int body, double time, con
     for (const SpinGuess& b : after) {
       const Vec3 change = b.h - a.h;
       const double meet = rotation_vector<double>(b.q * a.q.conjugate()).norm() / kMeet;
-      Turning t{between(a.q, b.q), a.h, impulse.cross(change) / square, true, a.cost + b.cost + 0.5 * meet * meet};
+      Turning t{between(a.q, b.q), a.h, b.h, impulse.cross(change) / square, true, a.cost + b.cost + 0.5 * meet * meet};
       const double along = change.dot(impulse) / std::sqrt(square) / (reach * std::sqrt(square)), beyond = std::max(0.0, t.lever.norm() / reach - 1.0);
       t.cost += 0.5 * (along * along + beyond * beyond) * 100.0;
       all.push_back(t);
@@ -74,6 +75,14 @@ std::vector<State> start_states(const Problem& problem, double time, int count) 
   base.impulse = base.v_after[0] - base.v[0];
   const Vec3 other = base.v_after[1] - base.v[1];
   base.mass_ratio = problem.mass_ratio ? *problem.mass_ratio : std::clamp(base.impulse.norm() / std::max(1e-6, other.norm()), 0.05, 20.0);
+  base.x = problem.fixed ? base.p[0] : Vec3(0.5 * (base.p[0] + base.p[1]));
+  if (!problem.orientations.empty()) {  // impulse and time first, for what they tell of the turning
+    Problem centers = problem;
+    centers.orientations.clear();
+    const Fit fit = solve(centers, base);
+    if (fit.usable) base = fit.state;
+    time = base.time;
+  }
   const std::vector<Turning> first = turnings(problem, 0, time, base.impulse);
   const std::vector<Turning> second = problem.fixed ? std::vector<Turning>{Turning{}} : turnings(problem, 1, time, Vec3(-base.impulse / base.mass_ratio));
   struct Ranked {
@@ -89,8 +98,7 @@ std::vector<State> start_states(const Problem& problem, double time, int count) 
       s.h = {a.h, b.h};
       const auto [x, apart] = contact_of(problem, s, a, b);
       s.x = x;
-      s.h_after[0] = s.h[0] + (s.x - s.p[0]).cross(s.impulse);
-      s.h_after[1] = s.h[1] - (s.x - s.p[1]).cross(s.impulse) / s.mass_ratio;
+      s.h_after = {a.h_after, b.h_after};
       all.push_back({a.cost + b.cost + 0.5 * apart * apart / (kApart * kApart), s});
     }
   std::stable_sort(all.begin(), all.end(), [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });

@@ -33,6 +33,7 @@ struct StateT {
   Vec3T<T> down;
   std::array<Vec3T<T>, 2> p, v, h, v_after, h_after;
   std::array<QuatT<T>, 2> q;
+  std::array<Vec3T<T>, 2> turn;  ///< 0, with the derivatives of q as a rotation
   Vec3T<T> x, impulse;
 };
 
@@ -54,6 +55,7 @@ StateT<T> unpack(const Problem& problem, const State& reference, const T* u) {
     s.v[o] = reference.v[o].cast<T>() + vec(kV + 3 * o);
     s.h[o] = reference.h[o].cast<T>() + vec(kH + 3 * o);
     s.q[o] = rotation_by<T>(vec(kTurn + 3 * o)) * reference.q[o].cast<T>();
+    s.turn[o] = (s.q[o] * QuatT<T>(T(value_of(s.q[o].w())), T(-value_of(s.q[o].x())), T(-value_of(s.q[o].y())), T(-value_of(s.q[o].z())))).vec() * T(2.0);
     if (problem.terms.soft) {
       s.v_after[o] = reference.v_after[o].cast<T>() + vec(kVAfter + 3 * o);
       s.h_after[o] = reference.h_after[o].cast<T>() + vec(kHAfter + 3 * o);
