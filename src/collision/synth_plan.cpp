@@ -183,9 +183,9 @@ SynthPlan draw_floor(const SynthOptions& options, Random& random) {
   plan.hit = SynthHit{};
   plan.hit->point = point;
   set_spin(options, 0.5, 5.0, plan, random);
-  plan.least_impacts = is_box ? 1 : 3;
+  plan.least_impacts = is_box || plan.restitution < 0.55 ? 1 : 3;
   plan.once = is_box;
-  plan.least_after = is_box && options.frames == 0 ? 0.22 : 0.0;
+  plan.least_after = is_box && options.frames == 0 ? std::min(0.22, 0.44 * plan.restitution) : 0.0;
   set_time(plan, options, 0.28, is_box ? random.uniform(0.3, 0.4) : 1.1, random);
   return plan;
 }
@@ -205,7 +205,7 @@ SynthPlan draw_rain(const SynthOptions& options, Random& random) {
   set_velocities(plan, Vec3(0, 0, -random.uniform(2.0, 4.0)), Vec3(random.uniform(-0.2, 0.2), 0, random.uniform(-0.5, 1.0)));
   plan.floor = Plane{Vec3::UnitZ(), plan.states[1].p.z() - bodies[1].radius - random.uniform(0.25, 0.5)};
   set_spin(options, 0.5, 4.0, plan, random);
-  plan.least_impacts = 2;
+  plan.least_impacts = plan.restitution < 0.3 ? 1 : 2;
   plan.watched = false;
   set_time(plan, options, 0.2, 0.8, random);
   return plan;
