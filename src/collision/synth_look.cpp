@@ -95,18 +95,22 @@ double linear(double level) { return std::pow(level / 255, kGamma); }
 Vec3 to_lamp() { return Vec3(-0.35, -0.62, 0.7).normalized(); }
 double lit(const Vec3& normal) { return 0.4 + 0.6 * std::max(0.0, normal.dot(to_lamp())); }
 
-Vec3 surface_color(const SynthBody& body, int number, int face, const Vec3& place) {
-  const double hue = number == 0 ? 0.0 : 0.55;
-  if (body.sphere()) {
-    const bool odd = (place.x() > 0) != (place.y() > 0), top = place.z() > 0;
-    return odd != top ? color(hue, 0.85, 0.9) : color(hue + 0.12, 0.6, 0.98);
+Paint::Paint(const SynthBody& body, int number) : ball_(body.sphere()) {
+  const double hue = number == 0 ? 0.0 : 0.55, scale = 1 / (0.3 * body.reach);
+  if (ball_) coats_.push_back({Vec3::Zero(), Vec3::Zero(), {color(hue + 0.12, 0.6, 0.98), color(hue, 0.85, 0.9)}});
+  for (std::size_t i = 0; i < body.faces.size(); ++i) {
+    const double own = std::fmod(hue + 0.37 * static_cast<double>(i), 1.0);
+    const Vec3 u = any_orthogonal(body.faces[i].normal), v = body.faces[i].normal.cross(u);
+    coats_.push_back({scale * u, scale * v, {color(own, 0.7, 0.95), color(own, 0.8, 0.5)}});
   }
-  const double own = std::fmod(hue + 0.61803398875 * face * 0.6, 1.0);
-  const Vec3 n = body.faces[static_cast<std::size_t>(face)].normal, u = any_orthogonal(n), v = n.cross(u);
-  const double x = place.dot(u) / (0.3 * body.reach), y = place.dot(v) / (0.3 * body.reach);
+}
+
+const Vec3& Paint::at(int face, const Vec3& place) const {
+  if (ball_) return coats_[0].colors[((place.x() > 0) != (place.y() > 0)) != (place.z() > 0)];
+  const Coat& coat = coats_[static_cast<std::size_t>(face)];
+  const double x = place.dot(coat.u), y = place.dot(coat.v);
   const auto odd = [](double t) { return (static_cast<int>(std::floor(t)) & 1) != 0; };
-  const bool second = face % 3 == 0 ? odd(x) != odd(y) : face % 3 == 1 ? odd(x + 0.5 * y) : odd(std::hypot(x - 0.7, y - 0.4));
-  return second ? color(own, 0.8, 0.5) : color(own, 0.7, 0.95);
+  return coat.colors[face % 3 == 0 ? odd(x) != odd(y) : face % 3 == 1 ? odd(x + 0.5 * y) : odd(std::hypot(x - 0.7, y - 0.4))];
 }
 
 Backdrop make_backdrop(const SynthShot& scene, std::uint64_t seed, Context& context) {

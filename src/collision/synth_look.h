@@ -17,9 +17,21 @@ Vec3 to_lamp();
 /// Share of the light that a surface of that normal (unit, world) throws back.
 double lit(const Vec3& normal);
 
-/// Linear colour (blue, green, red in [0,1]) of a body's surface: each face has its own two, in checks, stripes or rings; a ball has
-/// eight fields of two colours. `place` in the body's axes; `face` an index, ignored for a ball.
-Vec3 surface_color(const SynthBody& body, int number, int face, const Vec3& place);
+/// What a body is painted with: each face has its own two colours, in checks, stripes or rings; a ball has eight fields of two colours.
+class Paint {
+ public:
+  Paint(const SynthBody& body, int number);
+  /// Linear blue, green and red in [0,1] at a place in the body's axes; `face` is ignored for a ball.
+  const Vec3& at(int face, const Vec3& place) const;
+
+ private:
+  struct Coat {
+    Vec3 u, v;  ///< axes of the pattern, 1/m
+    Vec3 colors[2];
+  };
+  bool ball_;
+  std::vector<Coat> coats_;
+};
 
 /// What the camera sees where no body is: a wall with pictures on it, a floor, or a table from above.
 struct Backdrop {

@@ -35,8 +35,8 @@ Patch united(const Patch& a, const Patch& b) {
 /// A body at one instant, seen from the camera's centre; everything in the body's axes.
 class Sight {
  public:
-  Sight(const SynthBody& body, int number, const SynthPose& pose, const Mat3& R_world_camera)
-      : body_(&body), number_(number), rotation_(pose.q.toRotationMatrix()), to_body_(rotation_.transpose() * R_world_camera),
+  Sight(const SynthBody& body, const Paint& paint, const SynthPose& pose, const Mat3& R_world_camera)
+      : body_(&body), paint_(&paint), rotation_(pose.q.toRotationMatrix()), to_body_(rotation_.transpose() * R_world_camera),
         eye_(-(rotation_.transpose() * pose.p)) {
     for (const auto& f : body.faces) planes_.push_back({to_body_.transpose() * f.normal, f.offset - f.normal.dot(eye_)});
   }
@@ -49,7 +49,7 @@ class Sight {
   Vec3 color(const Vec3& ray, double distance, int face) const {
     const Vec3 place = eye_ + distance * (to_body_ * ray);
     const Vec3 normal = body_->sphere() ? Vec3(place / body_->radius) : body_->faces[static_cast<std::size_t>(face)].normal;
-    return lit(rotation_ * normal) * surface_color(*body_, number_, face, place);
+    return lit(rotation_ * normal) * paint_->at(face, place);
   }
 
  private:
@@ -77,7 +77,7 @@ class Sight {
   }
 
   const SynthBody* body_;
-  int number_;
+  const Paint* paint_;
   Mat3 rotation_, to_body_;
   Vec3 eye_;
   std::vector<std::pair<Vec3, double>> planes_;  ///< normal in camera axes, distance from the eye
@@ -101,9 +101,12 @@ class Film {
       if (scene.truth.bodies[i].shape == Shape::fixed) continue;
       movers_.push_back({synth_body(scene.truth.bodies[i]), i == 0 ? 1.0 : scene.truth.mass_ratio.value_or(1.0), 0.0});
     }
+    for (std::size_t i = 0; i < movers_.size(); ++i) paints_.emplace_back(movers_[i].body, static_cast<int>(i));
     hang_curtain();
     for (const Vec3& c : backdrop_.colors)
       for (int k = 0; k < 3; ++k) still_.push_back(static_cast<float>(encoded(c[k])));
+    for (int k = 0; k < kSamples; ++k)
+      offsets_[k] = {std::fmod(0.5 + 0.7548776662466927 * k, 1.0) - 0.5, std::fmod(0.5 + 0.5698402909980532 * k, 1.0) - 0.5};
     Random random(static_cast<std::uint64_t>(options.seed) * 13 + 3);
     for (int i = 0; i < kNoiseValues; ++i) noise_.push_back(static_cast<float>(options.noise * random.normal()));
   }
@@ -169,7 +172,7 @@ class Film {
       const SynthPose pose = pose_at(index, body, frame.time + shift);
       const Vec3 p = T * pose.p;
       if (p.z() < 1.2 * shape.reach) return {};
-      e.sights.emplace_back(shape, static_cast<int>(body), pose, scene_.truth.T_world_camera.rotation);
+      e.sights.emplace_back(shape, paints_[body], pose, scene_.truth.T_world_camera.rotation);
       const Patch patch = patch_around(camera_.project(p), 1.3 * camera_.fx * shape.reach / (p.z() - shape.reach) + 1, camera_);
       e.patch = k == 0 ? patch : united(e.patch, patch);
     }
@@ -209,16 +212,18 @@ class Film {
   }
 
   void paint(int u, int v, const std::vector<Exposure>& exposures, float* pixel) const {
-    const bool near = std::any_of(exposures.begin(), exposures.end(), [&](const Exposure& e) { return e.patch.holds(u, v) || e.shadow.holds(u, v); });
-    if (!near || curtain_.holds(u, v)) return;
+    bool near = false, shaded = false;
+    for (const Exposure& e : exposures) {
+      near = near || e.patch.holds(u, v);
+      shaded = shaded || e.shadow.holds(u, v);
+    }
+    if ((!near && !shaded) || curtain_.holds(u, v)) return;
     const std::size_t at = static_cast<std::size_t>(v) * camera_.width + u;
     const double light = light_at(backdrop_.places[at], u, v, exposures);
     Vec3 sum = Vec3::Zero();
     int hits = 0;
-    for (int k = 0; k < kSamples; ++k) {
-      // low-discrepancy places in the pixel (Roberts' R2 sequence)
-      const double du = std::fmod(0.5 + 0.7548776662466927 * k, 1.0) - 0.5, dv = std::fmod(0.5 + 0.5698402909980532 * k, 1.0) - 0.5;
-      const Vec3 ray = camera_.unproject(u + du, v + dv, 1.0);
+    for (int k = 0; near && k < kSamples; ++k) {
+      const Vec3 ray = camera_.unproject(u + offsets_[k].x(), v + offsets_[k].y(), 1.0);
       double nearest = std::numeric_limits<double>::infinity();
       const Sight* seen = nullptr;
       int face = 0;
@@ -260,7 +265,9 @@ class Film {
   Camera camera_;
   Backdrop backdrop_;
   std::vector<SynthMover> movers_;
+  std::vector<Paint> paints_;
   Patch curtain_;
+  std::array<Vec2, kSamples> offsets_;  ///< in the pixel: low-discrepancy points (Roberts' R2 sequence)
   std::vector<float> still_;  ///< levels of the picture without bodies
   std::vector<float> noise_;
 };
