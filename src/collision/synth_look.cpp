@@ -97,7 +97,7 @@ double lit(const Vec3& normal) { return 0.4 + 0.6 * std::max(0.0, normal.dot(to_
 
 Paint::Paint(const SynthBody& body, int number) : ball_(body.sphere()) {
   const double hue = number == 0 ? 0.0 : 0.55, scale = 1 / (0.3 * body.reach);
-  if (ball_) coats_.push_back({Vec3::Zero(), Vec3::Zero(), {color(hue + 0.12, 0.6, 0.98), color(hue, 0.85, 0.9)}});
+  if (ball_) coats_.push_back({Vec3::Zero(), Vec3::Zero(), {color(hue + 0.12, 0.35, 0.98), color(hue, 0.85, 0.9)}});
   for (std::size_t i = 0; i < body.faces.size(); ++i) {
     const double own = std::fmod(hue + 0.37 * static_cast<double>(i), 1.0);
     const Vec3 u = any_orthogonal(body.faces[i].normal), v = body.faces[i].normal.cross(u);

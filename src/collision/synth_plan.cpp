@@ -119,7 +119,7 @@ SynthPlan draw_pair(const SynthOptions& options, Random& random) {
   add_mover(plan, bodies[0], 1.0);
   add_mover(plan, bodies[1], options.mass_ratio.value_or(ratio));
 
-  const double depth = planar ? random.uniform(1.4, 2.0) : random.uniform(1.9, 3.2);
+  const double depth = planar ? random.uniform(1.4, 2.0) : random.uniform(1.7, 2.8);
   const double u = random.uniform(0.42, 0.58), v = planar ? random.uniform(0.4, 0.6) : random.uniform(0.25, 0.42);
   const double into = planar ? 0.0 : 1.0;  // nothing leaves the table
   const Vec3 normal = Vec3(-1, into * random.uniform(-0.35, 0.35), random.uniform(-0.4, 0.4)).normalized();

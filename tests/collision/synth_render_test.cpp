@@ -41,13 +41,13 @@ Picture still(SynthShot shot, const SynthOptions& options) {
   return film(shot, options).front();
 }
 
-/// Pixels that differ from the still picture.
-cv::Mat mask_of(const Picture& picture, const Picture& background, int width, int height) {
+/// Pixels that differ from the still picture by more than `least` levels.
+cv::Mat mask_of(const Picture& picture, const Picture& background, int width, int height, int least = 12) {
   cv::Mat mask(height, width, CV_8U);
   for (int i = 0; i < width * height; ++i) {
     int most = 0;
     for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(picture[static_cast<std::size_t>(3 * i + c)] - background[static_cast<std::size_t>(3 * i + c)]));
-    mask.data[i] = most > 12 ? 255 : 0;
+    mask.data[i] = most > least ? 255 : 0;
   }
   return mask;
 }
@@ -137,7 +137,8 @@ TEST(SynthRender, AnOpenShutterBlursAlongTheMotion) {
   options.exposure = 1;
   const std::vector<Picture> blurred = film(shot, options);
   const std::size_t f = 3;  // falls
-  const cv::Mat narrow = mask_of(sharp[f], background, options.width, options.height), wide = mask_of(blurred[f], background, options.width, options.height);
+  const cv::Mat narrow = mask_of(sharp[f], background, options.width, options.height, 1);
+  const cv::Mat wide = mask_of(blurred[f], background, options.width, options.height, 1);
   const cv::Rect a = cv::boundingRect(narrow), b = cv::boundingRect(wide);
   const BodyState& s = *shot.truth.frames[f].bodies[0];
   const double drop = s.v.norm() / 30 * shot.truth.camera.fx / s.p.y();

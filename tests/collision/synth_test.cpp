@@ -79,10 +79,11 @@ TEST(Synth, EnergyNeverGrowsAndFallsAtImpactsOnly) {
       const bool hit = std::any_of(truth.impacts.begin(), truth.impacts.end(), [&](const Impact& impact) {
         return impact.time > truth.frames[i - 1].time && impact.time <= truth.frames[i].time;
       });
-      if (hit)
+      if (hit) {
         EXPECT_LT(change, -1e-6) << scene << " frame " << i;
-      else
+      } else {
         EXPECT_NEAR(change, 0, 1e-8) << scene << " frame " << i;
+      }
     }
   }
 }
@@ -230,7 +231,9 @@ TEST(Synth, FrictionStaysInItsCone) {
     EXPECT_NEAR(*impact.friction, across / normal, 1e-12);
     EXPECT_LE(across, 0.15 * normal * (1 + 1e-12));
     const bool sticks = across < 0.15 * normal * (1 - 1e-9);
-    if (sticks) EXPECT_NEAR(impact.tangential_restitution.value_or(0), 0, 1e-9);
+    if (sticks) {
+      EXPECT_NEAR(impact.tangential_restitution.value_or(0), 0, 1e-9);
+    }
     (sticks ? stuck : slid) += 1;
   }
   EXPECT_GT(slid, 0);
