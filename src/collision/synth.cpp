@@ -11,7 +11,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr int kDraws = 20000;
+constexpr int kDraws = 4000;
 
 void check(const SynthOptions& options) {
   SynthOptions copy = options;

@@ -119,7 +119,7 @@ SynthPlan draw_pair(const SynthOptions& options, Random& random) {
   add_mover(plan, bodies[0], 1.0);
   add_mover(plan, bodies[1], options.mass_ratio.value_or(ratio));
 
-  const double depth = planar ? random.uniform(1.4, 2.0) : random.uniform(1.9, 3.2);
+  const double depth = planar ? random.uniform(1.4, 2.0) : random.uniform(1.7, 2.8);
   const double u = random.uniform(0.42, 0.58), v = planar ? random.uniform(0.4, 0.6) : random.uniform(0.25, 0.42);
   const double into = planar ? 0.0 : 1.0;  // nothing leaves the table
   const Vec3 normal = Vec3(-1, into * random.uniform(-0.35, 0.35), random.uniform(-0.4, 0.4)).normalized();
@@ -183,9 +183,9 @@ SynthPlan draw_floor(const SynthOptions& options, Random& random) {
   plan.hit = SynthHit{};
   plan.hit->point = point;
   set_spin(options, 0.5, 5.0, plan, random);
-  plan.least_impacts = is_box ? 1 : 3;
+  plan.least_impacts = is_box || plan.restitution < 0.55 ? 1 : 3;
   plan.once = is_box;
-  plan.least_after = is_box && options.frames == 0 ? 0.22 : 0.0;
+  plan.least_after = is_box && options.frames == 0 ? std::min(0.22, 0.44 * plan.restitution) : 0.0;
   set_time(plan, options, 0.28, is_box ? random.uniform(0.3, 0.4) : 1.1, random);
   return plan;
 }
@@ -205,7 +205,7 @@ SynthPlan draw_rain(const SynthOptions& options, Random& random) {
   set_velocities(plan, Vec3(0, 0, -random.uniform(2.0, 4.0)), Vec3(random.uniform(-0.2, 0.2), 0, random.uniform(-0.5, 1.0)));
   plan.floor = Plane{Vec3::UnitZ(), plan.states[1].p.z() - bodies[1].radius - random.uniform(0.25, 0.5)};
   set_spin(options, 0.5, 4.0, plan, random);
-  plan.least_impacts = 2;
+  plan.least_impacts = plan.restitution < 0.3 ? 1 : 2;
   plan.watched = false;
   set_time(plan, options, 0.2, 0.8, random);
   return plan;

@@ -51,11 +51,18 @@ std::size_t flight_of(const Truth& truth, double time) {
   return flight;
 }
 
+/// Whether nobody looks: near an impact, if the options leave a gap there.
+bool in_gap(const Truth& truth, const FramePose& f, int gap) {
+  return std::any_of(truth.impacts.begin(), truth.impacts.end(), [&](const Impact& i) { return std::abs(f.frame - i.frame) <= 0.5 * gap; });
+}
+
 void observe_orientations(const Truth& truth, int body, const SynthOptions& options, const RigidTransform& T_camera_world,
                           Random& random, Shot& shot) {
   std::vector<std::vector<const FramePose*>> flights(truth.impacts.size() + 1);
-  for (const FramePose& f : truth.frames)
-    if (in_picture(truth.camera.project(T_camera_world * f.bodies[body]->p), 0, truth.camera)) flights[flight_of(truth, f.time)].push_back(&f);
+  for (const FramePose& f : truth.frames) {
+    const bool seen = in_picture(truth.camera.project(T_camera_world * f.bodies[body]->p), 0, truth.camera);
+    if (seen && !in_gap(truth, f, options.gap)) flights[flight_of(truth, f.time)].push_back(&f);
+  }
   for (const auto& flight : flights)
     for (int i = 0; i < options.orientations && !flight.empty(); ++i) {
       const auto at = static_cast<std::size_t>((i + 0.5) / options.orientations * static_cast<double>(flight.size()));
@@ -117,12 +124,10 @@ void observe(const Truth& truth, const SynthOptions& options, Shot& shot) {
       radius[i] = std::sqrt(area_of(silhouette(bodies[i], {f.bodies[i]->p, f.bodies[i]->q}, truth.camera, truth.T_world_camera)) / kPi);
       noise = std::max(noise, options.centroid_noise * 2 * radius[i]);
     }
-    const bool hidden = std::any_of(truth.impacts.begin(), truth.impacts.end(),
-                                    [&](const Impact& i) { return std::abs(f.frame - i.frame) <= 0.5 * options.gap; });
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Vec2 exact = truth.camera.project(T * f.bodies[i]->p);
       const double du = random.uniform(-1, 1), dv = random.uniform(-1, 1);
-      if (!hidden && in_picture(exact, 0, truth.camera))
+      if (!in_gap(truth, f, options.gap) && in_picture(exact, 0, truth.camera))
         shot.observations.push_back({f.frame, exact + noise * Vec2(du, dv), radius[i], static_cast<int>(i)});
     }
   }

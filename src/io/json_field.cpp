@@ -145,4 +145,14 @@ void JsonField::fail(const std::string& expected) const {
   throw InputError(source_, path_, found, expected);
 }
 
+std::filesystem::path named_file(const JsonField& json, const std::string& key, const std::filesystem::path& folder) {
+  if (!json.has(key)) return {};
+  const std::string name = json[key].text();
+  if (name.empty() || name.find('\0') != std::string::npos) json[key].fail("the name of a file");
+  std::error_code error;
+  const std::filesystem::path path = folder / name;
+  if (!std::filesystem::exists(path, error)) json[key].fail(fmt::format("a file in {}", folder.empty() ? "." : folder.string()));
+  return path;
+}
+
 }  // namespace unseen::io

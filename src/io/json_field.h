@@ -22,6 +22,11 @@ nlohmann::json parse_json(const std::string& text, const std::string& source,
 /// The whole of a text file of at most `largest` bytes. Throws InputError.
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest);
 
+class JsonField;
+
+/// The file that the member `key` names, relative to `folder`; empty if there is no such member. Throws InputError if it does not exist.
+std::filesystem::path named_file(const JsonField& json, const std::string& key, const std::filesystem::path& folder);
+
 /// A value within a JSON file that knows where it stands, "planes[3].normal", so that every failed check
 /// throws an InputError which names file and field. Refers to the parsed file, which must outlive it.
 class JsonField {

@@ -33,17 +33,6 @@ RgbdFiles find_in_folder(const fs::path& folder) {
   return files;
 }
 
-/// A file that a frame file names, relative to its folder.
-fs::path named_file(const JsonField& json, const std::string& key, const fs::path& folder) {
-  if (!json.has(key)) return {};
-  const std::string name = json[key].text();
-  if (name.empty() || name.find('\0') != std::string::npos) json[key].fail("the name of a file");
-  std::error_code error;
-  const fs::path path = folder / name;
-  if (!fs::exists(path, error)) json[key].fail(fmt::format("a file in {}", folder.empty() ? "." : folder.string()));
-  return path;
-}
-
 }  // namespace
 
 RgbdFiles read_frame_file(const fs::path& path) {

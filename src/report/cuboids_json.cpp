@@ -15,15 +15,6 @@ Json axes_of(const Mat3& axes) {
   return Json::array({vector_of(axes.col(0)), vector_of(axes.col(1)), vector_of(axes.col(2))});
 }
 
-Json matrix_of(const RigidTransform& t) {
-  Json rows = Json::array();
-  for (int r = 0; r < 3; ++r)
-    rows.push_back(
-        {number(t.rotation(r, 0)), number(t.rotation(r, 1)), number(t.rotation(r, 2)), number(t.translation[r])});
-  rows.push_back({0.0, 0.0, 0.0, 1.0});
-  return rows;
-}
-
 Json support_of(const cuboids::Support& s) {
   Json json = {{"id", s.id},
                {"kind", cuboids::kSupportKinds[static_cast<int>(s.kind)]},

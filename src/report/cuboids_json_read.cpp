@@ -47,25 +47,6 @@ std::vector<Vec3> vectors(const JsonField& json) {
   return list;
 }
 
-RigidTransform transform(const JsonField& json) {
-  const auto rows = json.list();
-  if (rows.size() != 4) json.fail("four rows");
-  RigidTransform t;
-  for (std::size_t r = 0; r < 4; ++r) {
-    const auto row = rows[r].list();
-    if (row.size() != 4) rows[r].fail("four numbers");
-    for (std::size_t c = 0; c < 4; ++c) {
-      const double v = row[c].number();
-      const auto i = static_cast<Eigen::Index>(r), j = static_cast<Eigen::Index>(c);
-      if (r == 3 && v != (c == 3 ? 1.0 : 0.0)) rows[r].fail("0, 0, 0, 1");
-      if (r < 3 && c < 3) t.rotation(i, j) = v;
-      if (r < 3 && c == 3) t.translation[i] = v;
-    }
-  }
-  if (!t.is_rigid(1e-6)) json.fail("a rigid motion");
-  return t;
-}
-
 OrientedBox box(const JsonField& json, const std::string& prefix) {
   OrientedBox b;
   b.center = json[prefix + "center"].vector();
@@ -128,7 +109,7 @@ cuboids::Completion parse_cuboids_result(const std::string& text, const std::str
   cuboids::Completion c;
   Ids ids;
   c.summary = read_summary(json["summary"], text);
-  c.T_world_camera = transform(json["T_world_camera"]);
+  c.T_world_camera = read_transform(json["T_world_camera"]);
   for (const JsonField& field : json["supports"].list()) c.supports.push_back(support(field, ids));
   const Ids supports = ids;
   for (const JsonField& field : json["cuboids"].list()) c.cuboids.push_back(cuboid(field, ids));

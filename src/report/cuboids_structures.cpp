@@ -210,18 +210,7 @@ void add_camera(SceneBuilder& scene, const Completion& c, const RgbdFrame& frame
     image["data"] = scene.bytes(io::jpeg_of(frame.color, frame.camera.width, frame.camera.height));
   }
   Json& camera = scene.add("camera", "camera", "Camera");
-  camera["T_world_camera"] = Json::array();
-  for (int r = 0; r < 3; ++r) {
-    for (int k = 0; k < 3; ++k) camera["T_world_camera"].push_back(number(c.T_world_camera.rotation(r, k)));
-    camera["T_world_camera"].push_back(number(c.T_world_camera.translation[r]));
-  }
-  for (const double last : {0.0, 0.0, 0.0, 1.0}) camera["T_world_camera"].push_back(last);
-  camera["fx"] = frame.camera.fx;
-  camera["fy"] = frame.camera.fy;
-  camera["cx"] = frame.camera.cx;
-  camera["cy"] = frame.camera.cy;
-  camera["width"] = frame.camera.width;
-  camera["height"] = frame.camera.height;
+  write_camera(camera, c.T_world_camera, frame.camera);
   if (!frame.color.empty()) camera["image"] = "photograph";
 }
 

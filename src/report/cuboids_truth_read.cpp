@@ -28,20 +28,6 @@ Kind kind_of(const JsonField& json, const char* const (&names)[N]) {
   json.fail("one of " + all);
 }
 
-RigidTransform transform(const JsonField& json) {
-  const auto rows = json.list();
-  if (rows.size() != 4) json.fail("four rows");
-  RigidTransform T;
-  for (int r = 0; r < 3; ++r) {
-    const auto row = rows[static_cast<std::size_t>(r)].list();
-    if (row.size() != 4) rows[static_cast<std::size_t>(r)].fail("four numbers");
-    for (int c = 0; c < 3; ++c) T.rotation(r, c) = row[static_cast<std::size_t>(c)].number();
-    T.translation[r] = row[3].number();
-  }
-  if (!T.is_rigid(1e-6)) json.fail("a rigid motion");
-  return T;
-}
-
 int new_id(const JsonField& json, std::set<int>& ids) {
   const int id = json.index(kMostIds);
   if (!ids.insert(id).second) json.fail("an id of its own");
@@ -92,7 +78,7 @@ cuboids::Truth read_cuboids_truth(const std::filesystem::path& path) {
   cuboids::Truth truth;
   truth.family = json["family"].text();
   truth.stands = json["stands"].truth();
-  truth.T_world_camera = transform(json["T_world_camera"]);
+  truth.T_world_camera = read_transform(json["T_world_camera"]);
   std::set<int> ids;
   for (const JsonField& field : json["supports"].list()) {
     cuboids::Support support;

@@ -67,16 +67,59 @@ int GlbBuilder::add_material(const std::string& name, const Rgb& color, double o
   return static_cast<int>(model.materials.size()) - 1;
 }
 
-void GlbBuilder::add_node(const std::string& name, tinygltf::Primitive primitive) {
+int GlbBuilder::add_empty_node(const std::string& name, const Vec3& position, const Eigen::Quaterniond& rotation) {
+  tinygltf::Node node;
+  node.name = name;
+  const Vec3 p = position - offset;
+  if (position != Vec3::Zero()) node.translation = {p.x(), p.y(), p.z()};
+  if (rotation.coeffs() != Eigen::Quaterniond::Identity().coeffs()) node.rotation = {rotation.x(), rotation.y(), rotation.z(), rotation.w()};
+  model.nodes.push_back(std::move(node));
+  const int id = static_cast<int>(model.nodes.size()) - 1;
+  model.nodes[0].children.push_back(id);
+  return id;
+}
+
+int GlbBuilder::add_node(const std::string& name, tinygltf::Primitive primitive) {
   tinygltf::Mesh mesh;
   mesh.name = name;
   mesh.primitives.push_back(std::move(primitive));
   model.meshes.push_back(std::move(mesh));
-  tinygltf::Node node;
-  node.name = name;
-  node.mesh = static_cast<int>(model.meshes.size()) - 1;
-  model.nodes.push_back(std::move(node));
-  model.nodes[0].children.push_back(static_cast<int>(model.nodes.size()) - 1);
+  const int id = add_empty_node(name);
+  model.nodes[static_cast<std::size_t>(id)].mesh = static_cast<int>(model.meshes.size()) - 1;
+  return id;
+}
+
+void GlbBuilder::add_motion(int node, const std::vector<double>& times, const std::vector<Vec3>& positions,
+                            const std::vector<Eigen::Quaterniond>& rotations) {
+  constexpr int kNoTarget = 0, kFloat = TINYGLTF_COMPONENT_TYPE_FLOAT;
+  std::vector<float> seconds(times.begin(), times.end());
+  std::vector<std::array<float, 3>> places;
+  std::vector<std::array<float, 4>> turns;
+  for (const Vec3& p : positions) places.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+  for (const Eigen::Quaterniond& q : rotations)
+    turns.push_back({static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())});
+  const int input = add_accessor(seconds, kNoTarget, kFloat, TINYGLTF_TYPE_SCALAR);
+  model.accessors.back().minValues = {seconds.front()};
+  model.accessors.back().maxValues = {seconds.back()};
+  const std::array<std::pair<const char*, int>, 2> outputs = {{{"translation", add_accessor(places, kNoTarget, kFloat, TINYGLTF_TYPE_VEC3)},
+                                                               {"rotation", add_accessor(turns, kNoTarget, kFloat, TINYGLTF_TYPE_VEC4)}}};
+  if (model.animations.empty()) {
+    model.animations.emplace_back();
+    model.animations.back().name = "motion";
+  }
+  tinygltf::Animation& animation = model.animations.back();
+  for (const auto& [path, output] : outputs) {
+    tinygltf::AnimationSampler sampler;
+    sampler.input = input;
+    sampler.output = output;
+    sampler.interpolation = "LINEAR";
+    animation.samplers.push_back(sampler);
+    tinygltf::AnimationChannel channel;
+    channel.sampler = static_cast<int>(animation.samplers.size()) - 1;
+    channel.target_node = node;
+    channel.target_path = path;
+    animation.channels.push_back(channel);
+  }
 }
 
 void GlbBuilder::add_points(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Rgb>& srgb) {

@@ -49,8 +49,13 @@ struct GlbBuilder {
   int add_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
   /// A dull material; an opacity below 1 makes it translucent.
   int add_material(const std::string& name, const Rgb& color, double opacity = 1.0);
-  /// A node below the root that shows one primitive.
-  void add_node(const std::string& name, tinygltf::Primitive primitive);
+  /// A node below the root that shows one primitive; gives its index.
+  int add_node(const std::string& name, tinygltf::Primitive primitive);
+  /// A node below the root that shows nothing yet.
+  int add_empty_node(const std::string& name, const Vec3& position = Vec3::Zero(), const Eigen::Quaterniond& rotation = Eigen::Quaterniond::Identity());
+  /// Moves a node: a linear key a time (s, rising from 0 or later). Neighbouring quaternions must have the same sign. All
+  /// motions are one animation.
+  void add_motion(int node, const std::vector<double>& times, const std::vector<Vec3>& positions, const std::vector<Eigen::Quaterniond>& rotations);
   /// A node of points, each in its colour, without light.
   void add_points(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Rgb>& colors);
   /// The whole file. Nothing can be added after it.

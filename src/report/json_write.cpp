@@ -46,6 +46,15 @@ Json vector_of(const Vec3& v) {
   return Json::array({number(v.x()), number(v.y()), number(v.z())});
 }
 
+Json matrix_of(const RigidTransform& t) {
+  Json rows = Json::array();
+  for (int r = 0; r < 3; ++r)
+    rows.push_back(
+        {number(t.rotation(r, 0)), number(t.rotation(r, 1)), number(t.rotation(r, 2)), number(t.translation[r])});
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
 Json summary_of(const Summary& summary) {
   Json seconds = Json::object(), energy = Json::object(), counts = Json::object();
   for (const auto& [name, value] : summary.seconds) seconds[name] = number(value);

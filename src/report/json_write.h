@@ -22,6 +22,9 @@ Json degrees_of(double radians);
 
 Json vector_of(const Vec3& v);
 
+/// Four rows of four numbers.
+Json matrix_of(const RigidTransform& t);
+
 /// An array of what `write(item, index)` makes of each item.
 template <class Items, class Write>
 Json list_of(const Items& items, Write write) {

@@ -51,6 +51,25 @@ Summary read_summary(const JsonField& json, const std::string& text) {
   return summary;
 }
 
+RigidTransform read_transform(const JsonField& json) {
+  const auto rows = json.list();
+  if (rows.size() != 4) json.fail("four rows");
+  RigidTransform t;
+  for (std::size_t r = 0; r < 4; ++r) {
+    const auto row = rows[r].list();
+    if (row.size() != 4) rows[r].fail("four numbers");
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double v = row[c].number();
+      const auto i = static_cast<Eigen::Index>(r), j = static_cast<Eigen::Index>(c);
+      if (r == 3 && v != (c == 3 ? 1.0 : 0.0)) rows[r].fail("0, 0, 0, 1");
+      if (r < 3 && c < 3) t.rotation(i, j) = v;
+      if (r < 3 && c == 3) t.translation[i] = v;
+    }
+  }
+  if (!t.is_rigid(1e-6)) json.fail("a rigid motion");
+  return t;
+}
+
 StoredRun read_stored_run(const std::filesystem::path& path) {
   const nlohmann::json parsed = parse_json(read_result_text(path), path.string());
   const JsonField json(parsed, path.string());

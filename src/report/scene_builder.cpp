@@ -196,4 +196,16 @@ Json quantity(std::string_view id, std::string_view name, std::string_view kind,
   return {{"id", id}, {"name", name}, {"kind", kind}, {"unit", unit}, {"array", std::move(array)}};
 }
 
+void write_camera(Json& to, const RigidTransform& T_world_camera, const Camera& camera) {
+  to["T_world_camera"] = Json::array();
+  for (const Json& row : matrix_of(T_world_camera))
+    for (const Json& value : row) to["T_world_camera"].push_back(value);
+  to["fx"] = number(camera.fx);
+  to["fy"] = camera.fy;
+  to["cx"] = camera.cx;
+  to["cy"] = camera.cy;
+  to["width"] = camera.width;
+  to["height"] = camera.height;
+}
+
 }  // namespace unseen::report

@@ -59,4 +59,7 @@ class SceneBuilder {
 /// A quantity (docs/scene.md) of kind "label" or "scalar", to be given more fields if need be.
 Json quantity(std::string_view id, std::string_view name, std::string_view kind, Json array, std::string_view unit = "");
 
+/// What a structure of kind "camera" says of its camera.
+void write_camera(Json& to, const RigidTransform& T_world_camera, const Camera& camera);
+
 }  // namespace unseen::report

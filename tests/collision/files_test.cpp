@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "collision/sample.h"
+#include "unseen/collision/options.h"
+#include "unseen/core/error.h"
+#include "unseen/report/collision_result.h"
+
+namespace unseen::report {
+namespace {
+
+using collision::Reconstruction;
+
+std::string json_of(const Reconstruction& r) {
+  collision::Options options;
+  return collision_json(r, {"shot \xff.json", std::string(64, 'a')}, collision::describe(options));
+}
+
+TEST(CollisionResult, RoundTripGivesTheSameText) {
+  for (const Reconstruction& r : {collision::sample_two_bodies().result, collision::sample_bounces().result, Reconstruction{}}) {
+    const std::string text = json_of(r);
+    const Reconstruction back = parse_collision_result(text, "memory");
+    EXPECT_EQ(nlohmann::json::parse(json_of(back)), nlohmann::json::parse(text));
+    ASSERT_EQ(back.frames.size(), r.frames.size());
+    for (std::size_t i = 0; i < r.frames.size(); ++i)
+      for (std::size_t b = 0; b < 2; ++b) {
+        ASSERT_EQ(back.frames[i].bodies[b].has_value(), r.frames[i].bodies[b].has_value());
+        if (!r.frames[i].bodies[b]) continue;
+        EXPECT_EQ(back.frames[i].bodies[b]->p, r.frames[i].bodies[b]->p);
+        EXPECT_EQ(back.frames[i].bodies[b]->q.coeffs(), r.frames[i].bodies[b]->q.coeffs());
+      }
+    ASSERT_EQ(back.impacts.size(), r.impacts.size());
+    for (std::size_t i = 0; i < r.impacts.size(); ++i) {
+      EXPECT_EQ(back.impacts[i].restitution.high, r.impacts[i].restitution.high);
+      EXPECT_EQ(back.impacts[i].tangential_restitution, r.impacts[i].tangential_restitution);
+      EXPECT_EQ(back.impacts[i].between, r.impacts[i].between);
+    }
+    EXPECT_EQ(back.residuals.size(), r.residuals.size());
+    EXPECT_EQ(back.fits, r.fits);
+  }
+}
+
+TEST(CollisionResult, HoldsTheContract) {
+  const auto json = nlohmann::json::parse(json_of(collision::sample_two_bodies().result));
+  EXPECT_EQ(json["capability"], "collision");
+  EXPECT_EQ(json["restitution"], nlohmann::json::parse(R"({"value": 0.6, "sd": 0.02, "low": 0.55, "high": 0.64})"));
+  EXPECT_EQ(json["mass_ratio"]["value"], 1.25);
+  EXPECT_EQ(json["fixed"], nullptr);
+  EXPECT_EQ(json["impacts"][0]["between"], nlohmann::json::parse(R"(["box", "ball"])"));
+  EXPECT_EQ(json["impacts"][0]["friction"], nullptr);
+  EXPECT_EQ(json["impulse"], nlohmann::json::parse("[-1.5, 0, 0]"));
+  EXPECT_EQ(json["collision_time"]["time"], 0.255);
+  EXPECT_FALSE(json["frames"][0].contains("b"));
+  EXPECT_EQ(json["frames"][3]["b"].size(), 2u);
+  EXPECT_EQ(json["bodies"][1]["before"]["q"], nlohmann::json::parse("[1.0, 0.0, 0.0, 0.0]"));
+  const auto bounces = nlohmann::json::parse(json_of(collision::sample_bounces().result));
+  EXPECT_EQ(bounces["mass_ratio"], nullptr);
+  EXPECT_EQ(bounces["fixed"], "floor");
+  EXPECT_EQ(bounces["bodies"][1], nlohmann::json::parse(R"({"name": "floor", "fixed": true})"));
+  EXPECT_EQ(bounces["impacts"].size(), 2u);
+}
+
+TEST(CollisionResult, NeverWritesWhatIsNotFinite) {
+  Reconstruction r = collision::sample_two_bodies().result;
+  r.restitution->sd = std::nan("");
+  EXPECT_THROW(json_of(r), std::logic_error);
+}
+
+/// Changes one value of a valid result and expects an error that names the file and `field`.
+void expect_refused(const std::string& pointer, const nlohmann::json& value, const std::string& field) {
+  auto json = nlohmann::json::parse(json_of(collision::sample_bounces().result));
+  json[nlohmann::json::json_pointer(pointer)] = value;
+  try {
+    parse_collision_result(json.dump(), "a.json");
+    ADD_FAILURE() << pointer << " took " << value;
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.source, "a.json");
+    EXPECT_EQ(e.field, field) << e.what();
+  }
+}
+
+TEST(CollisionResult, RefusesWhatContradictsItself) {
+  expect_refused("/schema", 2, "schema");
+  expect_refused("/capability", "planes", "capability");
+  expect_refused("/T_world_camera/0/0", 2.0, "T_world_camera");
+  expect_refused("/gravity_direction", {0, 0, 2}, "gravity_direction");
+  expect_refused("/impacts/0/normal", {0, 0, 2}, "impacts[0].normal");
+  expect_refused("/impacts/0/between/1", "wall", "impacts[0].between[1]");
+  expect_refused("/impacts/1/restitution/low", 0.99, "impacts[1].restitution.low");
+  expect_refused("/impacts/1/restitution/sd", -1, "impacts[1].restitution.sd");
+  expect_refused("/impulse", {0, 0, 9}, "impulse");
+  expect_refused("/contact_point", nullptr, "contact_point");
+  expect_refused("/collision_time/frame", 3, "collision_time");
+  expect_refused("/fixed", nullptr, "fixed");
+  expect_refused("/fits", 1, "fits");
+  expect_refused("/bodies/0/before/q", {1, 1, 0, 0}, "bodies[0].before.q");
+  expect_refused("/bodies/0/inertia/0", -1, "bodies[0].inertia");
+  expect_refused("/frames/4/frame", 0.5, "frames[4].frame");
+  expect_refused("/frames/4/a/q", {1, 0, 0}, "frames[4].a.q");
+  expect_refused("/residuals/0/body", "c", "residuals[0].body");
+  expect_refused("/energy/after", -1, "energy.after");
+}
+
+TEST(CollisionResult, RefusesHostileText) {
+  const std::string good = json_of(collision::sample_two_bodies().result);
+  for (const std::string& text :
+       {std::string(), std::string("["), std::string("[]"), std::string(1 << 20, '['), good.substr(0, good.size() / 2)})
+    EXPECT_THROW(parse_collision_result(text, "a.json"), InputError) << text.substr(0, 40);
+  const auto whole = nlohmann::json::parse(good);
+  for (const auto& [key, value] : whole.items()) {
+    if (key == "unseen" || key == "input" || key == "options") continue;
+    auto json = whole;
+    json.erase(key);
+    EXPECT_THROW(parse_collision_result(json.dump(), "a.json"), InputError) << key;
+  }
+}
+
+}  // namespace
+}  // namespace unseen::report
