@@ -202,8 +202,9 @@ Tracks find_chain(const Shot& shot, const Candidates& candidates, int body, doub
   for (std::size_t i = 0; i + 1 < flights.size(); ++i) {
     const double end = points[i].back().u, begin = points[i + 1].front().u;
     if (begin - end > allowed) continue;
-    const Joint joint = join(curves[i], end, curves[i + 1], begin, std::max(noise, tracks.noise), diameter);
-    if (joint.apart > joint.tolerance || !joint.sudden || !rebounds(curves[i], curves[i + 1], joint)) continue;
+    const Curve before = curve_near_end(points[i], noise), after = curve_near_begin(points[i + 1], noise);
+    const Joint joint = join(before, end, after, begin, std::max(noise, tracks.noise), diameter);
+    if (joint.apart > joint.tolerance || !joint.sudden || !rebounds(before, after, joint)) continue;
     tracks.meetings.push_back({joint.u / fps, {static_cast<int>(i)}, {static_cast<int>(i + 1)}});
   }
   tracks.collisions_seen = static_cast<int>(tracks.meetings.size());

@@ -16,13 +16,36 @@ constexpr double kSudden = 6.0;      // σ of the velocities
 constexpr double kLeastChange = 0.12;  // of the faster velocity
 constexpr double kOddSize = 0.25;    // off the flight's typical diameter: merged or covered
 
+constexpr std::size_t kFewestNear = 6;  // points of a curve near an end
+constexpr double kExplained = 1.5;   // χ² a degree of freedom
+constexpr double kShorter = 0.8;     // of the points, from one try to the next
+
 double median(std::vector<double> values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
 
+/// Fit to the first points that `points` gives by index.
+template <class At>
+Curve near_curve(std::size_t count, At at, double noise) {
+  for (std::size_t n = count;; n = std::max(kFewestNear, static_cast<std::size_t>(kShorter * static_cast<double>(n)))) {
+    CurveSums sums(at(0).u);
+    for (std::size_t i = 0; i < n; ++i) sums.add(at(i).u, at(i).pixel);
+    const Curve curve = sums.fit();
+    if (n <= kFewestNear || curve.squares < kExplained * noise * noise * (2.0 * static_cast<double>(n) - 6.0)) return curve;
+  }
+}
+
 }  // namespace
+
+Curve curve_near_end(const std::vector<Candidate>& points, double noise) {
+  return near_curve(points.size(), [&](std::size_t i) -> const Candidate& { return points[points.size() - 1 - i]; }, noise);
+}
+
+Curve curve_near_begin(const std::vector<Candidate>& points, double noise) {
+  return near_curve(points.size(), [&](std::size_t i) -> const Candidate& { return points[i]; }, noise);
+}
 
 Joint join(const Curve& before, double end, const Curve& after, double begin, double noise, double diameter) {
   Joint joint;

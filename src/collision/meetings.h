@@ -11,6 +11,10 @@
 
 namespace unseen::collision {
 
+/// The flight's curve near one of its ends, from no more of its points than one parabola explains: drag and perspective bend long ones.
+Curve curve_near_end(const std::vector<Candidate>& points, double noise);
+Curve curve_near_begin(const std::vector<Candidate>& points, double noise);
+
 /// Where two flights of one body come closest to one another in time and place: the instant between them.
 struct Joint {
   double u = 0;          ///< frame times

@@ -18,10 +18,19 @@ constexpr double kShows = 4.0;       // σ that a flight's sagitta must reach wi
 constexpr double kShowsClearly = 8.0;  // to take a gravity from it
 constexpr double kSignificant = 8.0;  // σ of the curvature
 constexpr double kAgrees = 0.12;     // of the gravity
-constexpr double kForeseen = 3.5;    // σ
+constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
+constexpr int kForeseeing = 7;       // points next to it that foresee it
+constexpr int kTrimmed = 6;          // points that may come off an end
 constexpr double kWorstFit = 6.0;    // χ² a degree of freedom
+constexpr double kModel = 0.003;     // of a flight's length: what a parabola leaves of drag and perspective
 
 double sagitta(double curvature, double duration) { return 0.125 * curvature * duration * duration; }
+
+/// Variance of a point about a flight's parabola, px².
+double variance_of(const Curve& curve, double begin, double end, double noise) {
+  const double length = 0.5 * (curve.velocity_at(begin).norm() + curve.velocity_at(end).norm()) * (end - begin);
+  return noise * noise + kModel * kModel * length * length;
+}
 
 Curve fit_of(const std::vector<Candidate>& track, int begin, int end) {
   CurveSums sums(track[begin].u);
@@ -34,7 +43,7 @@ Curve fit_of(const std::vector<Candidate>& track, int begin, int end) {
 std::vector<Stretch> split_into_flights(const std::vector<Candidate>& track, double noise, const std::optional<ImageGravity>& gravity,
                                         Context& context) {
   const int count = static_cast<int>(track.size());
-  const double square = noise * noise, weight = gravity ? square / (gravity->sigma * gravity->sigma) : 0.0;
+  const double weight = gravity ? noise * noise / (gravity->sigma * gravity->sigma) : 0.0;
   const Vec2 expected = gravity ? gravity->curvature : Vec2::Zero();
   std::vector<double> cost(count + 1, std::numeric_limits<double>::infinity());
   std::vector<int> from(count + 1, -1);  // where the flight that ends here begins; the place before if the frame is skipped
@@ -51,7 +60,8 @@ std::vector<Stretch> split_into_flights(const std::vector<Candidate>& track, dou
       if (end - begin < kFewest) continue;
       const double duration = track[end - 1].u - track[begin].u;
       if (gravity && expected.norm() > 0.0 && sagitta(expected.norm(), duration) < kShows * noise) continue;
-      const double total = cost[begin] + kNew + sums.fit(expected, weight).squares / square;
+      const Curve curve = sums.fit(expected, weight);
+      const double total = cost[begin] + kNew + curve.squares / variance_of(curve, track[begin].u, track[end - 1].u, noise);
       if (total - cost[begin] > kNew + kSkip * (end - begin)) {
         if (end - begin > 2 * kFewest) break;  // longer ones do not get better
         continue;
@@ -73,9 +83,9 @@ std::optional<ImageGravity> shared_gravity(const std::vector<Stretch>& flights, 
   std::vector<const Stretch*> clear;
   for (const Stretch& f : flights) {
     const double a = f.curve.curvature.norm(), sigma = noise * std::sqrt(f.curve.cofactor(2, 2));
-    const double freedom = 2.0 * (f.end - f.begin) - 6.0;
+    const double freedom = 2.0 * (f.end - f.begin) - 6.0, variance = variance_of(f.curve, track[f.begin].u, track[f.end - 1].u, noise);
     if (a > kSignificant * sigma && sagitta(a, track[f.end - 1].u - track[f.begin].u) > kShowsClearly * noise &&
-        f.curve.squares < kWorstFit * freedom * noise * noise)
+        f.curve.squares < kWorstFit * freedom * variance)
       clear.push_back(&f);
   }
   std::optional<ImageGravity> best;
@@ -99,16 +109,20 @@ std::optional<ImageGravity> shared_gravity(const std::vector<Stretch>& flights, 
 }
 
 void trim(const std::vector<Candidate>& track, double noise, Stretch& flight) {
-  while (flight.end - flight.begin > kFewest) {
-    const Curve later = fit_of(track, flight.begin + 1, flight.end), earlier = fit_of(track, flight.begin, flight.end - 1);
-    const auto surprise = [&](const Curve& rest, const Candidate& c) {
-      const double freedom = std::max(1.0, 2.0 * rest.count - 6.0);
-      const double sigma = std::max(noise, std::sqrt(rest.squares / freedom));
-      return (c.pixel - rest.at(c.u)).norm() / (sigma * std::sqrt(2.0 * (1.0 + rest.variance_at(c.u))));
-    };
-    const double first = surprise(later, track[flight.begin]), last = surprise(earlier, track[flight.end - 1]);
-    if (std::max(first, last) < kForeseen) break;
-    if (first > last) ++flight.begin; else --flight.end;
+  const int count = flight.end - flight.begin, reach = std::min(kTrimmed, count - kFewest - 1);
+  const auto surprise = [&](int begin, int end, const Candidate& c) {
+    const Curve rest = fit_of(track, begin, end);
+    const double sigma = std::max(noise, std::sqrt(rest.squares / std::max(1.0, 2.0 * rest.count - 6.0)));
+    return (c.pixel - rest.at(c.u)).norm() / (sigma * std::sqrt(2.0 * (1.0 + rest.variance_at(c.u))));
+  };
+  int begin = flight.begin, end = flight.end;
+  for (int i = flight.begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
+    if (surprise(i + 1, std::min(flight.end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
+  for (int i = flight.end - 1; i >= flight.end - reach; --i)
+    if (surprise(std::max(begin, i - kForeseeing), i, track[i]) > kForeseen && i - begin >= kFewest) end = i;
+  if (end - begin >= kFewest) {
+    flight.begin = begin;
+    flight.end = end;
   }
   flight.curve = fit_of(track, flight.begin, flight.end);
 }
