@@ -16,12 +16,13 @@ struct Region {
   int frame = 0;
   Vec2 centroid = Vec2::Zero();
   double area = 0;        ///< px²
-  double diameter = 0;    ///< extent across its motion or, at rest, its least extent: what blur leaves alone
+  double diameter = 0;    ///< least extent, the width of a stadium of the same moments: what motion blur leaves alone
   double circle = 0;      ///< diameter of the bounding circle
   cv::Rect box;
   cv::Mat mask;           ///< 8 bit, of `box`
   Vec3 color = Vec3::Zero();  ///< mean sRGB, 0…255
   bool at_border = false;     ///< cut by the picture's (or the roi's) edge
+  bool shadow = false;        ///< all of it could be the background with less light
 };
 
 /// A video's moving regions, with what was found out about the video itself.

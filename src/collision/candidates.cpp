@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kColorSpread = 22.0;   // grey levels
+constexpr double kSizeSpread = 0.22;    // of the logarithm of the diameter
+constexpr double kCap = 16.0;           // σ²
+constexpr std::size_t kMost = 30;       // candidates a frame, the largest
+constexpr double kLargestShare = 0.15;  // of the picture
+
+/// The pixel without lens distortion.
+Vec2 undistorted(const Vec2& pixel, const ShotCamera& camera) {
+  if (std::all_of(camera.distortion.begin(), camera.distortion.end(), [](double k) { return k == 0.0; })) return pixel;
+  const Camera& c = camera.camera;
+  const cv::Matx33d k(c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1);
+  const std::vector<double> distortion(camera.distortion.begin(), camera.distortion.end());
+  std::vector<cv::Point2d> from{{pixel.x(), pixel.y()}}, to;
+  cv::undistortPoints(from, to, k, distortion, cv::noArray(), k);
+  return {to[0].x, to[0].y};
+}
+
+}  // namespace
+
+Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres) {
+  Candidates candidates(footage.regions.size());
+  const double largest = kLargestShare * footage.width * footage.height;
+  for (std::size_t k = 0; k < footage.regions.size(); ++k) {
+    if (footage.doubled[k]) continue;
+    for (std::size_t i = 0; i < footage.regions[k].size() && candidates[k].size() < kMost; ++i) {
+      const Region& r = footage.regions[k][i];
+      if (r.area > largest) continue;
+      Candidate c;
+      c.frame = static_cast<int>(k);
+      c.u = footage.times[k] * footage.fps;
+      c.pixel = undistorted(r.centroid, camera);
+      if (!footage.shift.empty()) {
+        const cv::Mat& m = footage.shift[k];
+        c.pixel = {m.at<double>(0, 0) * c.pixel.x() + m.at<double>(0, 1) * c.pixel.y() + m.at<double>(0, 2),
+                   m.at<double>(1, 0) * c.pixel.x() + m.at<double>(1, 1) * c.pixel.y() + m.at<double>(1, 2)};
+      }
+      c.diameter = spheres ? r.diameter : 2.0 * std::sqrt(r.area / kPi);
+      c.area = r.area;
+      c.color = r.color;
+      c.colored = true;
+      c.whole = !r.at_border;
+      c.shadow = r.shadow;
+      c.region = static_cast<int>(i);
+      candidates[k].push_back(c);
+    }
+  }
+  return candidates;
+}
+
+Candidates candidates_of(const std::vector<Sighting>& sightings, const ShotCamera& camera) {
+  int last = -1;
+  for (const Sighting& s : sightings) last = std::max(last, s.frame);
+  Candidates candidates(static_cast<std::size_t>(last + 1));
+  for (const Sighting& s : sightings) {
+    if (s.frame < 0) continue;
+    Candidate c;
+    c.frame = s.frame;
+    c.u = s.frame;
+    c.pixel = undistorted(s.pixel, camera);
+    c.diameter = 2.0 * s.radius;
+    c.area = kPi * s.radius * s.radius;
+    c.body = s.body;
+    candidates[static_cast<std::size_t>(s.frame)].push_back(c);
+  }
+  return candidates;
+}
+
+double unlikeness(const Candidate& a, const Candidate& b) {
+  if (a.body >= 0 && b.body >= 0 && a.body != b.body) return kCap;
+  double sum = 0.0;
+  if (a.colored && b.colored) sum += (a.color - b.color).squaredNorm() / (3.0 * kColorSpread * kColorSpread);
+  if (a.diameter > 0.0 && b.diameter > 0.0) {
+    const double d = std::log(a.diameter / b.diameter) / kSizeSpread;
+    sum += d * d;
+  }
+  return std::min(sum, kCap);
+}
+
+double typical_diameter(const std::vector<Candidate>& candidates) {
+  std::vector<double> sizes;
+  for (const Candidate& c : candidates)
+    if (c.diameter > 0.0 && c.whole) sizes.push_back(c.diameter);
+  if (sizes.empty()) return 0.0;
+  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
+  return sizes[sizes.size() / 2];
+}
+
+}  // namespace unseen::collision

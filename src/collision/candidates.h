@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "collision/tracks.h"
+
+namespace unseen::collision {
+
+/// Something that may be a body in one frame. Pixels without lens distortion, in the place of the first frame.
+struct Candidate {
+  int frame = 0;
+  double u = 0;          ///< time in frame times: seconds times the frame rate
+  Vec2 pixel = Vec2::Zero();
+  double diameter = 0;   ///< px; 0 = unknown
+  double area = 0;       ///< px²; 0 = unknown
+  Vec3 color = Vec3::Zero();
+  bool colored = false;  ///< `color` means something
+  bool whole = true;     ///< not cut by the picture's edge
+  bool shadow = false;
+  int body = -1;         ///< where it is labelled
+  int region = -1;
+};
+
+using Candidates = std::vector<std::vector<Candidate>>;  ///< by frame
+
+Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres);
+Candidates candidates_of(const std::vector<Sighting>& sightings, const ShotCamera& camera);
+
+/// How unlike two candidates look, in σ², capped.
+double unlikeness(const Candidate& a, const Candidate& b);
+
+/// Median diameter of those that have one; 0 = none has.
+double typical_diameter(const std::vector<Candidate>& candidates);
+
+}  // namespace unseen::collision

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/clip.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "unseen/core/error.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr const char* kExpected = "a video that FFmpeg can decode";
+
+/// Keeps OpenCV's own log quiet while it lives; FFmpeg's is set once, when OpenCV loads it.
+class Silence {
+ public:
+  Silence() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {
+    static std::once_flag once;
+    std::call_once(once, [] { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); });
+  }
+  ~Silence() { cv::utils::logging::setLogLevel(level_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel level_;
+};
+
+}  // namespace
+
+Clip::Clip(std::string path) : path_(std::move(path)) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path_, error)) throw InputError(path_, "video", "no such file", kExpected);
+  const Silence silence;
+  bool open = false;
+  try {
+    open = capture_.open(path_, cv::CAP_FFMPEG);
+  } catch (const cv::Exception&) {
+    open = false;
+  }
+  if (!open) throw InputError(path_, "video", "no video stream that can be read", kExpected);
+  capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 1.0);
+  const double fps = capture_.get(cv::CAP_PROP_FPS), count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+  fps_ = std::isfinite(fps) && fps > 0.1 && fps < 1e5 ? fps : 0.0;
+  announced_ = std::isfinite(count) && count > 0.0 && count < 1e8 ? static_cast<int>(std::lround(count)) : 0;
+  turn_ = static_cast<int>(std::lround(capture_.get(cv::CAP_PROP_ORIENTATION_META)));
+}
+
+bool Clip::next(cv::Mat& frame) {
+  const Silence silence;
+  try {
+    if (!capture_.read(frame) || frame.empty()) return false;
+  } catch (const cv::Exception&) {
+    return false;
+  }
+  stamp_ = 1e-3 * capture_.get(cv::CAP_PROP_POS_MSEC);
+  return true;
+}
+
+}  // namespace unseen::collision

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/spans.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace unseen::collision {
+namespace {
+
+constexpr int kFewest = 4;           // points
+constexpr int kLongest = 900;        // points
+constexpr double kSkip = 12.0;       // σ², of a frame that belongs to no flight
+constexpr double kNew = 24.0;        // σ², of another flight
+constexpr double kSpread = 0.08;     // of the gravity, from flight to flight: perspective, drag
+constexpr double kShows = 4.0;       // σ that a flight's sagitta must reach with a gravity,
+constexpr double kShowsClearly = 8.0;  // to take a gravity from it
+constexpr double kSignificant = 8.0;  // σ of the curvature
+constexpr double kAgrees = 0.12;     // of the gravity
+constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
+constexpr int kForeseeing = 7;       // points next to it that foresee it
+constexpr int kTrimmed = 6;          // points that may come off an end
+constexpr double kWorstFit = 6.0;    // χ² a degree of freedom
+constexpr double kModel = 0.003;     // of a flight's length: what a parabola leaves of drag and perspective
+
+double sagitta(double curvature, double duration) { return 0.125 * curvature * duration * duration; }
+
+/// Variance of a point about a flight's parabola, px².
+double variance_of(const Curve& curve, double begin, double end, double noise) {
+  const double length = 0.5 * (curve.velocity_at(begin).norm() + curve.velocity_at(end).norm()) * (end - begin);
+  return noise * noise + kModel * kModel * length * length;
+}
+
+Curve fit_of(const std::vector<Candidate>& track, int begin, int end) {
+  CurveSums sums(track[begin].u);
+  for (int i = begin; i < end; ++i) sums.add(track[i].u, track[i].pixel);
+  return sums.fit();
+}
+
+}  // namespace
+
+std::vector<Stretch> split_into_flights(const std::vector<Candidate>& track, double noise, const std::optional<ImageGravity>& gravity,
+                                        Context& context) {
+  const int count = static_cast<int>(track.size());
+  const double weight = gravity ? noise * noise / (gravity->sigma * gravity->sigma) : 0.0;
+  const Vec2 expected = gravity ? gravity->curvature : Vec2::Zero();
+  std::vector<double> cost(count + 1, std::numeric_limits<double>::infinity());
+  std::vector<int> from(count + 1, -1);  // where the flight that ends here begins; the place before if the frame is skipped
+  cost[0] = 0.0;
+  for (int begin = 0; begin < count; ++begin) {  // every cost[begin] is final when its turn comes
+    context.check();
+    if (cost[begin] + kSkip < cost[begin + 1]) {
+      cost[begin + 1] = cost[begin] + kSkip;
+      from[begin + 1] = begin;
+    }
+    CurveSums sums(track[begin].u);
+    for (int end = begin + 1; end <= std::min(count, begin + kLongest); ++end) {
+      sums.add(track[end - 1].u, track[end - 1].pixel);
+      if (end - begin < kFewest) continue;
+      const double duration = track[end - 1].u - track[begin].u;
+      if (gravity && expected.norm() > 0.0 && sagitta(expected.norm(), duration) < kShows * noise) continue;
+      const Curve curve = sums.fit(expected, weight);
+      const double total = cost[begin] + kNew + curve.squares / variance_of(curve, track[begin].u, track[end - 1].u, noise);
+      if (total - cost[begin] > kNew + kSkip * (end - begin)) {
+        if (end - begin > 2 * kFewest) break;  // longer ones do not get better
+        continue;
+      }
+      if (total < cost[end]) {
+        cost[end] = total;
+        from[end] = begin;
+      }
+    }
+  }
+  std::vector<Stretch> flights;
+  for (int end = count; end > 0; end = from[end])
+    if (end - from[end] >= kFewest) flights.push_back({from[end], end, fit_of(track, from[end], end)});
+  std::reverse(flights.begin(), flights.end());
+  return flights;
+}
+
+std::optional<ImageGravity> shared_gravity(const std::vector<Stretch>& flights, const std::vector<Candidate>& track, double noise) {
+  std::vector<const Stretch*> clear;
+  for (const Stretch& f : flights) {
+    const double a = f.curve.curvature.norm(), sigma = noise * std::sqrt(f.curve.cofactor(2, 2));
+    const double freedom = 2.0 * (f.end - f.begin) - 6.0, variance = variance_of(f.curve, track[f.begin].u, track[f.end - 1].u, noise);
+    if (a > kSignificant * sigma && sagitta(a, track[f.end - 1].u - track[f.begin].u) > kShowsClearly * noise &&
+        f.curve.squares < kWorstFit * freedom * variance)
+      clear.push_back(&f);
+  }
+  std::optional<ImageGravity> best;
+  double most = 0.0;
+  for (const Stretch* f : clear) {
+    double support = 0.0, weights = 0.0;
+    Vec2 mean = Vec2::Zero();
+    for (const Stretch* g : clear) {
+      const double sigma = noise * std::sqrt(g->curve.cofactor(2, 2));
+      if ((g->curve.curvature - f->curve.curvature).norm() > kAgrees * f->curve.curvature.norm() + 3.0 * sigma) continue;
+      support += g->end - g->begin;
+      weights += 1.0 / (sigma * sigma);
+      mean += g->curve.curvature / (sigma * sigma);
+    }
+    if (support <= most) continue;
+    most = support;
+    mean /= weights;
+    best = ImageGravity{mean, kSpread * mean.norm()};
+  }
+  return best;
+}
+
+void trim(const std::vector<Candidate>& track, double noise, Stretch& flight) {
+  const int count = flight.end - flight.begin, reach = std::min(kTrimmed, count - kFewest - 1);
+  const auto surprise = [&](int begin, int end, const Candidate& c) {
+    const Curve rest = fit_of(track, begin, end);
+    const double sigma = std::max(noise, std::sqrt(rest.squares / std::max(1.0, 2.0 * rest.count - 6.0)));
+    return (c.pixel - rest.at(c.u)).norm() / (sigma * std::sqrt(2.0 * (1.0 + rest.variance_at(c.u))));
+  };
+  int begin = flight.begin, end = flight.end;
+  for (int i = flight.begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
+    if (surprise(i + 1, std::min(flight.end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
+  for (int i = flight.end - 1; i >= flight.end - reach; --i)
+    if (surprise(std::max(begin, i - kForeseeing), i, track[i]) > kForeseen && i - begin >= kFewest) end = i;
+  if (end - begin >= kFewest) {
+    flight.begin = begin;
+    flight.end = end;
+  }
+  flight.curve = fit_of(track, flight.begin, flight.end);
+}
+
+}  // namespace unseen::collision

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/two_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/arcs.h"
+#include "collision/mass_properties.h"
+#include "collision/meetings.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kLongestGap = 0.2;    // s between two flights of one body, and
+constexpr double kLongestFrames = 6.5;  // frame times at least
+constexpr double kSameTime = 2.5;      // frame times between the two bodies' joints, beside what their spread explains
+constexpr double kTouch = 0.85;        // of the sum of the diameters that the centres may be apart at the impact
+constexpr double kAlike = 9.0;         // σ² between the looks before and after
+constexpr double kOpposed = -0.5;      // cosine between the two changes of velocity: momentum goes from one to the other
+constexpr double kOneCollision = 4.0;  // frame times between two collisions
+constexpr std::size_t kMostArcs = 60;
+constexpr double kGate = 3.5;          // σ, of points that are assigned to a flight
+constexpr double kSizesDiffer = 0.12;  // of the logarithm of the size ratio
+constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
+
+/// One body's flights before and after, by index of arc.
+struct Link {
+  std::size_t before, after;
+  Joint joint;
+  double diameter;
+};
+
+struct Collision {
+  Link a, b;
+  double u = 0, score = 0;
+};
+
+Candidate looks_of(const Arc& arc) {
+  Candidate mean = arc.points[arc.points.size() / 2];
+  mean.color.setZero();
+  for (const Candidate& c : arc.points) mean.color += c.color / static_cast<double>(arc.points.size());
+  mean.diameter = typical_diameter(arc.points);
+  return mean;
+}
+
+/// Pairs of arcs that can be one body's flights before and after an impact.
+std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double fps) {
+  const double gap = std::max(kLongestFrames, kLongestGap * fps);
+  std::vector<Candidate> looks;
+  for (const Arc& arc : arcs) looks.push_back(looks_of(arc));
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    for (std::size_t j = 0; j < arcs.size(); ++j) {
+      if (i == j || arcs[j].begin() - arcs[i].end() > gap || arcs[j].begin() < arcs[i].begin() + 2.0 || arcs[j].end() < arcs[i].end() + 2.0) continue;
+      if (arcs[i].end() - arcs[j].begin() > 4.0 || unlikeness(looks[i], looks[j]) > kAlike) continue;
+      const double diameter = std::max(looks[i].diameter, looks[j].diameter);
+      const Joint joint = join(arcs[i].curve, arcs[i].end(), arcs[j].curve, arcs[j].begin(), noise, diameter);
+      if (joint.apart < joint.tolerance && joint.sudden) links.push_back({i, j, joint, diameter});
+    }
+  return links;
+}
+
+/// When both bodies are nearest to their joints: the time that the noise of each leaves most likely.
+double common_time(const Link& a, const Link& b) {
+  const double wa = a.joint.change.squaredNorm(), wb = b.joint.change.squaredNorm();  // the sharper the bend, the better its time
+  return (wa * a.joint.u + wb * b.joint.u) / (wa + wb);
+}
+
+/// All pairs of links that make a collision of two bodies, best first.
+std::vector<Collision> collisions_of(const std::vector<Arc>& arcs, const std::vector<Link>& links, double noise) {
+  std::vector<Collision> found;
+  for (std::size_t i = 0; i < links.size(); ++i)
+    for (std::size_t j = i + 1; j < links.size(); ++j) {
+      const Link &a = links[i], &b = links[j];
+      if (a.before == b.before || a.after == b.after || a.before == b.after || a.after == b.before) continue;
+      const double slack = kSameTime + std::min(6.0, 4.0 * noise * (1.0 / a.joint.change.norm() + 1.0 / b.joint.change.norm()));
+      if (std::abs(a.joint.u - b.joint.u) > slack) continue;
+      const double u = common_time(a, b);
+      const Vec2 pa = 0.5 * (arcs[a.before].curve.at(u) + arcs[a.after].curve.at(u)), pb = 0.5 * (arcs[b.before].curve.at(u) + arcs[b.after].curve.at(u));
+      const double reach = 0.5 * (a.diameter + b.diameter);
+      if (reach > 0.0 && (pa - pb).norm() > kTouch * (a.diameter + b.diameter) + 4.0 * noise) continue;
+      const double opposed = a.joint.change.dot(b.joint.change) / (a.joint.change.norm() * b.joint.change.norm());
+      if (opposed > kOpposed) continue;
+      double score = -20.0 * opposed - (a.joint.apart + b.joint.apart) / noise - 4.0 * std::abs(a.joint.u - b.joint.u);
+      for (const std::size_t k : {a.before, a.after, b.before, b.after}) score += std::min<double>(30.0, static_cast<double>(arcs[k].points.size()));
+      found.push_back({a, b, u, score});
+    }
+  std::stable_sort(found.begin(), found.end(), [](const Collision& x, const Collision& y) { return x.score > y.score; });
+  return found;
+}
+
+/// Collisions at clearly different times.
+int count_collisions(const std::vector<Collision>& found) {
+  std::vector<double> times;
+  for (const Collision& c : found)
+    if (std::none_of(times.begin(), times.end(), [&](double u) { return std::abs(u - c.u) < kOneCollision; })) times.push_back(c.u);
+  return static_cast<int>(times.size());
+}
+
+/// The points of a flight again, from all candidates on its side of the impact, nearest first.
+std::vector<Candidate> reassign(const Candidates& candidates, const Arc& arc, double u, bool before, double noise) {
+  const Candidate look = looks_of(arc);
+  std::vector<Candidate> points;
+  for (const auto& frame : candidates) {
+    const Candidate* best = nullptr;
+    double least = kGate * kGate;
+    for (const Candidate& c : frame) {
+      if (!c.whole || c.shadow || (before ? c.u > u - kNearImpact : c.u < u + kNearImpact)) continue;
+      if (c.u < arc.begin() - 3.0 || c.u > arc.end() + 3.0) continue;
+      const double off = (c.pixel - arc.curve.at(c.u)).squaredNorm() / (2.0 * noise * noise * (1.0 + arc.curve.variance_at(c.u)));
+      if (off < kGate * kGate / 2.0 && off + unlikeness(c, look) < least) {
+        least = off + unlikeness(c, look);
+        best = &c;
+      }
+    }
+    if (best) points.push_back(*best);
+  }
+  return points.size() >= 3 ? points : arc.points;
+}
+
+/// True if the first of the two is the second of the shot's bodies: by labels, by size, else as found.
+bool swapped(const Shot& shot, const std::vector<Candidate>& first, const std::vector<Candidate>& second) {
+  int votes = 0;
+  for (const Candidate& c : first) votes += c.body == 1 ? 1 : c.body == 0 ? -1 : 0;
+  for (const Candidate& c : second) votes += c.body == 0 ? 1 : c.body == 1 ? -1 : 0;
+  if (votes != 0) return votes > 0;
+  const double a = mass_properties(shot.bodies[0], shot.name).extent, b = mass_properties(shot.bodies[1], shot.name).extent;
+  const double da = typical_diameter(first), db = typical_diameter(second);
+  if (a > 0.0 && b > 0.0 && da > 0.0 && db > 0.0 && std::abs(std::log(a / b)) > kSizesDiffer) return (std::log(a / b) > 0.0) != (std::log(da / db) > 0.0);
+  const Candidate &f = first.front(), &s = second.front();
+  return f.u != s.u ? f.u > s.u : f.pixel.x() > s.pixel.x();
+}
+
+std::vector<Candidate> joined(const std::vector<Candidate>& a, const std::vector<Candidate>& b) {
+  std::vector<Candidate> all = a;
+  all.insert(all.end(), b.begin(), b.end());
+  return all;
+}
+
+Curve curve_of(const std::vector<Candidate>& points) {
+  CurveSums sums(points.front().u);
+  for (const Candidate& c : points) sums.add(c.u, c.pixel);
+  return sums.fit();
+}
+
+/// Frames with more movers than the flights explain, by anything of a body's order of size.
+int unexplained_frames(const Candidates& candidates, const std::vector<std::vector<Candidate>>& flights, double least_area) {
+  int count = 0;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    int movers = 0, flown = 0;
+    for (const Candidate& c : candidates[k]) movers += !c.shadow && c.area >= least_area;
+    for (const auto& flight : flights)
+      for (const Candidate& c : flight) flown += c.frame == static_cast<int>(k);
+    count += movers > flown;
+  }
+  return count;
+}
+
+void finish(const Candidates& candidates, const std::vector<std::vector<Candidate>>& flights, Tracks& tracks) {
+  std::vector<Curve> curves;
+  double area = 1e300;
+  for (const auto& flight : flights) {
+    curves.push_back(curve_of(flight));
+    for (const Candidate& c : flight) area = std::min(area, 0.5 * c.area);
+  }
+  tracks.noise = noise_about(flights, curves);
+  tracks.unexplained = unexplained_frames(candidates, flights, flights.empty() ? 0.0 : area);
+}
+
+/// The longest flights of the two things that fly longest; no meeting.
+Tracks without_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, double fps) {
+  Tracks tracks;
+  std::vector<std::vector<Candidate>> flights;
+  for (const Arc& arc : arcs)
+    if (flights.size() < 2) flights.push_back(arc.points);
+  if (flights.size() == 2 && swapped(shot, flights[0], flights[1])) std::swap(flights[0], flights[1]);
+  for (std::size_t i = 0; i < flights.size(); ++i) add_span(tracks, static_cast<int>(i), flights[i], fps);
+  finish(candidates, flights, tracks);
+  return tracks;
+}
+
+Tracks with_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, const Collision& best, double noise, double fps) {
+  std::vector<std::vector<Candidate>> flights{
+      reassign(candidates, arcs[best.a.before], best.u, true, noise), reassign(candidates, arcs[best.b.before], best.u, true, noise),
+      reassign(candidates, arcs[best.a.after], best.u, false, noise), reassign(candidates, arcs[best.b.after], best.u, false, noise)};
+  if (swapped(shot, joined(flights[0], flights[2]), joined(flights[1], flights[3]))) {
+    std::swap(flights[0], flights[1]);
+    std::swap(flights[2], flights[3]);
+  }
+  Tracks tracks;
+  for (std::size_t i = 0; i < 4; ++i) add_span(tracks, static_cast<int>(i % 2), flights[i], fps);
+  finish(candidates, flights, tracks);
+  Link links[2];
+  for (std::size_t o = 0; o < 2; ++o)
+    links[o].joint = join(curve_of(flights[o]), flights[o].back().u, curve_of(flights[o + 2]), flights[o + 2].front().u, noise, 0.0);
+  double u = common_time(links[0], links[1]);
+  if (std::abs(u - best.u) > kSameTime) u = best.u;
+  tracks.meetings.push_back({u / fps, {0, 1}, {2, 3}});
+  return tracks;
+}
+
+}  // namespace
+
+Tracks find_pair(const Shot& shot, const Candidates& candidates, double fps, double least_noise, Context& context) {
+  const double noise = estimate_noise(candidates, least_noise);
+  std::vector<Arc> arcs = find_arcs(candidates, noise, context);
+  if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
+  const std::vector<Collision> found = collisions_of(arcs, links_of(arcs, noise, fps), noise);
+  if (found.empty()) return without_collision(shot, candidates, arcs, fps);
+  Tracks tracks = with_collision(shot, candidates, arcs, found.front(), noise, fps);
+  tracks.collisions_seen = count_collisions(found);
+  return tracks;
+}
+
+}  // namespace unseen::collision
