@@ -102,8 +102,10 @@ void add_flights(SceneBuilder& scene, const Reconstruction& r) {
   std::vector<int> flight;
   std::vector<float> residual;
   std::vector<std::string> names;
+  double highest = 1e-3;
   for (int b = 0; b < 2; ++b) {
     const std::map<int, double> off = distances(r, b);
+    for (const auto& [frame, distance] : off) highest = std::max(highest, distance);
     std::size_t legs = 0;
     for (const FramePose& f : r.frames) {
       const auto& body = f.bodies[static_cast<std::size_t>(b)];
@@ -122,7 +124,10 @@ void add_flights(SceneBuilder& scene, const Reconstruction& r) {
   points["positions"] = scene.point_positions(places);
   Json label = quantity("flight", "Flight", "label", scene.integers(flight));
   label["names"] = names;
-  points["quantities"] = {label, quantity("residual", "Residual", "scalar", scene.scalars(residual), "px")};
+  Json off = quantity("residual", "Residual", "scalar", scene.scalars(residual), "px");
+  off["low"] = 0.0;
+  off["high"] = number(highest);
+  points["quantities"] = {label, off};
 }
 
 void add_impacts(SceneBuilder& scene, const Reconstruction& r) {
