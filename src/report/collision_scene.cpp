@@ -33,6 +33,11 @@ void add_value_table(SceneBuilder& scene, const Reconstruction& r) {
   Json rows = Json::array();
   if (r.restitution) rows.push_back(row_of("restitution", *r.restitution));
   if (r.mass_ratio) rows.push_back(row_of(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), *r.mass_ratio));
+  if (r.energy_before > 0) {
+    const auto energy = [&](const char* when, double value) { rows.push_back({fmt::format("kinetic energy {}, J per kg of {}", when, name_of(r, 0)), number(value), nullptr, nullptr, nullptr}); };
+    energy("before", r.energy_before);
+    energy("after", r.energy_after);
+  }
   add_table(scene, "Values", {column("value of"), column("value", "", 4), column("sd", "", 4), column("95 % from", "", 4), column("to", "", 4)}, std::move(rows));
 }
 
@@ -69,7 +74,7 @@ void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
   add_table(scene, "What the clip tells", {column("remark")}, std::move(weak));
 }
 
-std::string text_of(const Estimate& e) { return fmt::format("{:.3f} ± {:.3f} (95 %: {:.3f}…{:.3f})", e.value, e.sd, e.low, e.high); }
+std::string text_of(const Estimate& e) { return fmt::format("{:.3f} ± {:.3f}", e.value, e.sd); }
 
 Json facts_of(const Reconstruction& r) {
   Json facts = Json::array();
@@ -79,9 +84,8 @@ Json facts_of(const Reconstruction& r) {
   fact("the model fits", r.fits ? "yes" : "no");
   if (!r.ambiguous.empty()) fact("ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"));
   fact("impacts", std::to_string(r.impacts.size()));
-  if (!r.impacts.empty()) fact("first impact", fmt::format("frame {:.2f}, {:.4f} s", r.impacts.front().frame, r.impacts.front().time));
-  if (r.energy_before > 0)
-    fact("kinetic energy", fmt::format("{:.4g} to {:.4g} J per kg of {} ({:.0f} % kept)", r.energy_before, r.energy_after, name_of(r, 0), 100.0 * r.energy_after / r.energy_before));
+  if (!r.impacts.empty()) fact("first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
+  if (r.energy_before > 0) fact("kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
   fact("reprojection", fmt::format("{:.2f} px", r.reprojection_rms));
   if (r.held_out_rms > 0) fact("held-out frames", fmt::format("{:.2f} px", r.held_out_rms));
   if (r.drag) fact("drag", fmt::format("{:.4g} 1/m", *r.drag));
@@ -118,7 +122,7 @@ std::string collision_scene(const Reconstruction& r, const InputRecord& input, c
   header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
   add_bodies(scene, shot, r);
   add_fixed(scene, shot, r);
-  add_flights(scene, r);
+  add_flights(scene, r, shot.gravity);
   add_impacts(scene, r);
   add_clip(scene, r, pictures);
   add_residual_chart(scene, r);

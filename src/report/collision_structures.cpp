@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -15,6 +16,8 @@ namespace unseen::report {
 namespace {
 
 using namespace collision;
+
+constexpr int kHues = 8;  // of labels: from the ninth on they repeat lighter and darker, so that a body's flights have one hue
 
 std::vector<std::array<int, 3>> triangles_of(const TriangleMesh& mesh) {
   std::vector<std::array<int, 3>> triangles;
@@ -97,37 +100,40 @@ void add_fixed(SceneBuilder& scene, const Shot& shot, const Reconstruction& r) {
   floor["triangles"] = scene.triples(triangles);
 }
 
-void add_flights(SceneBuilder& scene, const Reconstruction& r) {
-  std::vector<Vec3> places;
+void add_flights(SceneBuilder& scene, const Reconstruction& r, double gravity) {
+  std::vector<Vec3> ends;
   std::vector<int> flight;
   std::vector<float> residual;
   std::vector<std::string> names;
   double highest = 1e-3;
   for (int b = 0; b < 2; ++b) {
+    const Motion motion = motion_of(r, b, gravity);
     const std::map<int, double> off = distances(r, b);
-    for (const auto& [frame, distance] : off) highest = std::max(highest, distance);
-    std::size_t legs = 0;
-    for (const FramePose& f : r.frames) {
-      const auto& body = f.bodies[static_cast<std::size_t>(b)];
-      if (!body) continue;
-      std::size_t leg = 0;
-      for (const Impact& impact : r.impacts) leg += impact.time < f.time && (impact.between[0] == b || impact.between[1] == b);
-      for (; legs <= leg; ++legs) names.push_back(fmt::format("{}, flight {}", name_of(r, b), legs + 1));
-      places.push_back(body->p);
-      flight.push_back(static_cast<int>(names.size() - legs + leg));
-      const auto at = off.find(f.frame);
+    for (std::size_t i = 0; i + 1 < motion.times.size(); ++i) {
+      const double middle = 0.5 * (motion.times[i] + motion.times[i + 1]);
+      const int leg = static_cast<int>(std::count_if(r.impacts.begin(), r.impacts.end(), [&](const Impact& x) {
+        return x.time < middle && (x.between[0] == b || x.between[1] == b);
+      }));
+      const int label = b + kHues * leg;
+      if (names.size() <= static_cast<std::size_t>(label)) names.resize(static_cast<std::size_t>(label) + 1);
+      names[static_cast<std::size_t>(label)] = fmt::format("{}, flight {}", name_of(r, b), leg + 1);
+      ends.push_back(motion.positions[i]);
+      ends.push_back(motion.positions[i + 1]);
+      flight.push_back(label);
+      const auto at = off.find(static_cast<int>(std::lround(motion.times[i] * r.fps)));
       residual.push_back(at == off.end() ? std::nanf("") : static_cast<float>(at->second));
+      if (at != off.end()) highest = std::max(highest, at->second);
     }
   }
-  if (places.empty()) return;
-  Json& points = scene.add("points", "flights", "Centres, one a frame");
-  points["positions"] = scene.point_positions(places);
+  if (flight.empty()) return;
+  Json& lines = scene.add("lines", "flights", "Flights");
+  lines["vertices"] = scene.positions(ends);
   Json label = quantity("flight", "Flight", "label", scene.integers(flight));
   label["names"] = names;
   Json off = quantity("residual", "Residual", "scalar", scene.scalars(residual), "px");
   off["low"] = 0.0;
   off["high"] = number(highest);
-  points["quantities"] = {label, off};
+  lines["quantities"] = {label, off};
 }
 
 void add_impacts(SceneBuilder& scene, const Reconstruction& r) {
@@ -144,7 +150,7 @@ void add_impacts(SceneBuilder& scene, const Reconstruction& r) {
     vectors.push_back(0.6 * impact.impulse.norm() * impact.normal);
     kind.push_back(2);
   }
-  Json& arrows = scene.add("arrows", "impulses", "Impulses and normals at the contact");
+  Json& arrows = scene.add("arrows", "impulses", "Impulses, normals");
   arrows["origins"] = scene.positions(origins);
   arrows["vectors"] = scene.vectors(vectors);
   Json label = quantity("on", "What it is", "label", scene.integers(kind));

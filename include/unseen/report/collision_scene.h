@@ -12,7 +12,7 @@
 
 namespace unseen::report {
 
-/// What the page shows of a collision result, encoded for page_of (docs/scene.md): the flights with a dot a frame, the bodies as they
+/// What the page shows of a collision result, encoded for page_of (docs/scene.md): the flights, the bodies as they
 /// move, contact point, normal and impulses of each impact, the camera with the frames of the clip, the residuals over the frames, tables, and
 /// how it was made. `command` is the command line that gives the same result. A shot without bodies (the file is gone) shows balls of
 /// the bodies' inertia.

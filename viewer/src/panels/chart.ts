@@ -6,7 +6,7 @@ import { h, number, s } from '../dom';
 import type { Chart } from '../format';
 import { css, labelColor } from '../palette';
 
-const kWidth = 340, kHeight = 170, kLeft = 36, kRight = 8, kTop = 8, kBottom = 30;
+const kWidth = 340, kHeight = 170, kLeft = 36, kRight = 16, kTop = 8, kBottom = 30;
 
 /** About four round steps from 0 or low to high. */
 export function ticksOf(low: number, high: number): number[] {
