@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "session.h"
 #include "unseen/collision/overlay.h"
+#include "unseen/core/error.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/sha256.h"
 #include "unseen/report/collision_files.h"

@@ -34,7 +34,7 @@ void add_value_table(SceneBuilder& scene, const Reconstruction& r) {
   if (r.restitution) rows.push_back(row_of("restitution", *r.restitution));
   if (r.mass_ratio) rows.push_back(row_of(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), *r.mass_ratio));
   if (r.energy_before > 0) {
-    const auto energy = [&](const char* when, double value) { rows.push_back({fmt::format("kinetic energy {}, J per kg of {}", when, name_of(r, 0)), number(value), nullptr, nullptr, nullptr}); };
+    const auto energy = [&](const char* when, double value) { rows.push_back({fmt::format("energy {}, J/kg", when), number(value), nullptr, nullptr, nullptr}); };
     energy("before", r.energy_before);
     energy("after", r.energy_after);
   }
