@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "report/json_write.h"
+#include "report/collision_parts.h"
 #include "unseen/report/collision_result.h"
 
 namespace unseen::report {
@@ -8,23 +8,10 @@ namespace {
 
 using namespace collision;
 
-constexpr const char* kBodyKeys[] = {"a", "b"};
-
-template <class T, class Write>
-Json or_null(const std::optional<T>& value, Write write) {
-  return value ? Json(write(*value)) : Json(nullptr);
-}
-
 Json pair_of(const Vec2& v) { return Json::array({number(v.x()), number(v.y())}); }
-
-Json quaternion_of(const Quat& q) { return Json::array({number(q.w()), number(q.x()), number(q.y()), number(q.z())}); }
 
 Json estimate_of(const Estimate& e) {
   return {{"value", number(e.value)}, {"sd", number(e.sd)}, {"low", number(e.low)}, {"high", number(e.high)}};
-}
-
-Json state_of(const BodyState& s) {
-  return {{"p", vector_of(s.p)}, {"v", vector_of(s.v)}, {"k", vector_of(s.k)}, {"q", quaternion_of(s.q)}};
 }
 
 Json impact_of(const Impact& i, const std::vector<BodyResult>& bodies) {
@@ -42,10 +29,6 @@ Json impact_of(const Impact& i, const std::vector<BodyResult>& bodies) {
 Json body_of(const BodyResult& b) {
   if (b.fixed) return {{"name", b.name}, {"fixed", true}};
   return {{"name", b.name}, {"inertia", vector_of(b.inertia)}, {"before", state_of(b.before)}, {"after", state_of(b.after)}};
-}
-
-Json camera_of(const Camera& c) {
-  return {{"fx", number(c.fx)}, {"fy", number(c.fy)}, {"cx", number(c.cx)}, {"cy", number(c.cy)}, {"width", c.width}, {"height", c.height}};
 }
 
 Json frame_of(const FramePose& f) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <cmath>
-
-#include "report/result_read.h"
+#include "report/collision_parts.h"
 #include "unseen/report/collision_result.h"
 
 namespace unseen::report {
@@ -12,23 +10,10 @@ using namespace collision;
 
 constexpr std::size_t kMost = 1'000'000'000;
 
-std::optional<double> number_or_null(const JsonField& json) {
-  if (json.is_null()) return std::nullopt;
-  return json.number();
-}
-
 Vec2 pair(const JsonField& json) {
   const auto values = json.list();
   if (values.size() != 2) json.fail("two numbers");
   return {values[0].number(), values[1].number()};
-}
-
-Quat quaternion(const JsonField& json) {
-  const auto values = json.list();
-  if (values.size() != 4) json.fail("four numbers, w first");
-  const Quat q(values[0].number(), values[1].number(), values[2].number(), values[3].number());
-  if (!(std::abs(q.norm() - 1.0) < 1e-6)) json.fail("a quaternion of length 1");
-  return q;
 }
 
 Estimate estimate(const JsonField& json) {
@@ -42,10 +27,6 @@ std::optional<Estimate> estimate_or_null(const JsonField& json) {
   return estimate(json);
 }
 
-BodyState state(const JsonField& json) {
-  return {json["p"].vector(), json["v"].vector(), json["k"].vector(), quaternion(json["q"])};
-}
-
 BodyResult body(const JsonField& json) {
   BodyResult b;
   b.name = json["name"].text();
@@ -56,8 +37,8 @@ BodyResult body(const JsonField& json) {
   }
   b.inertia = json["inertia"].vector();
   if (b.inertia.minCoeff() < 0.0) json["inertia"].fail("three numbers, none below 0");
-  b.before = state(json["before"]);
-  b.after = state(json["after"]);
+  b.before = read_state(json["before"]);
+  b.after = read_state(json["after"]);
   return b;
 }
 
@@ -66,8 +47,8 @@ Impact impact(const JsonField& json, const std::vector<BodyResult>& bodies) {
   i.time = json["time"].number();
   i.frame = json["frame"].number();
   i.restitution = estimate(json["restitution"]);
-  i.tangential_restitution = number_or_null(json["tangential_restitution"]);
-  i.friction = number_or_null(json["friction"]);
+  i.tangential_restitution = read_number_or_null(json["tangential_restitution"]);
+  i.friction = read_number_or_null(json["friction"]);
   i.impulse = json["impulse"].vector();
   i.contact_point = json["contact_point"].vector();
   i.normal = json["normal"].unit_vector();
@@ -83,10 +64,6 @@ Impact impact(const JsonField& json, const std::vector<BodyResult>& bodies) {
   return i;
 }
 
-Camera camera(const JsonField& json) {
-  return {json["fx"].number(0), json["fy"].number(0), json["cx"].number(), json["cy"].number(), json["width"].index(kMost), json["height"].index(kMost)};
-}
-
 FramePose frame(const JsonField& json, std::size_t bodies) {
   FramePose f;
   f.frame = json["frame"].index(kMost);
@@ -95,7 +72,7 @@ FramePose frame(const JsonField& json, std::size_t bodies) {
     const std::string key = b == 0 ? "a" : "b";
     if (!json.has(key)) continue;
     if (b >= bodies) json[key].fail("a body of \"bodies\"");
-    f.bodies[b] = BodyState{json[key]["p"].vector(), Vec3::Zero(), Vec3::Zero(), quaternion(json[key]["q"])};
+    f.bodies[b] = BodyState{json[key]["p"].vector(), Vec3::Zero(), Vec3::Zero(), read_unit_quaternion(json[key]["q"])};
   }
   return f;
 }
@@ -145,13 +122,13 @@ Reconstruction parse_collision_result(const std::string& text, const std::string
   Reconstruction r;
   r.summary = read_summary(json["summary"], text);
   r.T_world_camera = read_transform(json["T_world_camera"]);
-  r.camera = camera(json["camera"]);
+  r.camera = read_camera(json["camera"]);
   r.fps = json["fps"].number(0);
   r.gravity_direction = json["gravity_direction"].unit_vector();
   r.fits = json["fits"].truth();
   r.energy_before = json["energy"]["before"].number(0);
   r.energy_after = json["energy"]["after"].number(0);
-  r.drag = number_or_null(json["drag"]);
+  r.drag = read_number_or_null(json["drag"]);
   r.reprojection_rms = json["reprojection_rms"].number(0);
   r.held_out_rms = json["held_out_rms"].number(0);
   for (const JsonField& field : json["terms"].list())
