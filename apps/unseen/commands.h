@@ -22,6 +22,7 @@ struct Command {
 /// Each adds its subcommand to `app`; `shell_command` is the whole command line, for the report.
 Command add_planes(CLI::App& app, const std::string& shell_command);
 Command add_cuboids(CLI::App& app, const std::string& shell_command);
+Command add_collision(CLI::App& app, const std::string& shell_command);
 Command add_convert(CLI::App& app);
 Command add_view(CLI::App& app);
 Command add_synth_planes(CLI::App& synth);
@@ -29,5 +30,6 @@ Command add_synth_cuboids(CLI::App& synth);
 Command add_synth_collision(CLI::App& synth);
 Command add_evaluate_planes(CLI::App& evaluate);
 Command add_evaluate_cuboids(CLI::App& evaluate);
+Command add_evaluate_collision(CLI::App& evaluate);
 
 }  // namespace unseen::cli

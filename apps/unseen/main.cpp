@@ -61,9 +61,10 @@ int main(int argc, char** argv) {
   synth->require_subcommand(0, 1)->footer("Example:\n  unseen synth planes -o room --seed 7");
   evaluate->require_subcommand(0, 1)->footer("Example:\n  unseen evaluate planes OUT --truth house.obj");
   const std::string command = shell_command({argv, argv + argc});
-  const std::vector<Command> commands = {add_planes(app, command), add_cuboids(app, command), add_convert(app),
+  const std::vector<Command> commands = {add_planes(app, command), add_cuboids(app, command),
+                                         add_collision(app, command), add_convert(app),
                                          add_synth_planes(*synth), add_synth_cuboids(*synth), add_synth_collision(*synth),
-                                         add_evaluate_planes(*evaluate), add_evaluate_cuboids(*evaluate),
+                                         add_evaluate_planes(*evaluate), add_evaluate_cuboids(*evaluate), add_evaluate_collision(*evaluate),
                                          add_view(app)};
   try {
     app.parse(argc, argv);

@@ -10,6 +10,8 @@
 #include "commands.h"
 #include "cuboids.h"
 #include "session.h"
+#include "unseen/collision/options.h"
+#include "unseen/collision/overlay.h"
 #include "unseen/core/error.h"
 #include "unseen/io/describe.h"
 #include "unseen/io/output_folder.h"
@@ -17,6 +19,9 @@
 #include "unseen/io/rgbd.h"
 #include "unseen/io/sha256.h"
 #include "unseen/planes/options.h"
+#include "unseen/report/collision_result.h"
+#include "unseen/report/collision_scene.h"
+#include "unseen/report/collision_shot.h"
 #include "unseen/report/cuboids_result.h"
 #include "unseen/report/cuboids_scene.h"
 #include "unseen/report/page.h"
@@ -81,12 +86,17 @@ Shown planes_result(const std::filesystem::path& folder, const report::StoredRun
   return {report::planes_title(a, run.input), report::planes_scene(a, run.input, table, command, points)};
 }
 
+/// Throws InputError if the input of a run has another content by now.
+void check_input(const report::InputRecord& input, const Context& context) {
+  if (!input.sha256.empty() && io::sha256(input.path, context) != input.sha256)
+    throw InputError(input.path, "sha256", "another content", "that of the run");
+}
+
 /// The frame that a result was made from, if it is still where it was; without it the page has neither depth nor
 /// photograph, and says so.
 RgbdFrame frame_of(const report::StoredRun& run, cuboids::Completion& c, Context& context) {
   try {
-    if (!run.input.sha256.empty() && io::sha256(run.input.path, context) != run.input.sha256)
-      throw InputError(run.input.path, "sha256", "another content", "that of the run");
+    check_input(run.input, context);
     return io::read_rgbd_frame(run.input.path);
   } catch (const InputError& error) {
     c.summary.warnings.push_back(fmt::format("shown without depth and photograph: {}", error.what()));
@@ -104,6 +114,24 @@ Shown cuboids_result(const std::filesystem::path& folder, const report::StoredRu
   return {report::cuboids_title(run.input), report::cuboids_scene(c, run.input, table, command, frame)};
 }
 
+Shown collision_result(const std::filesystem::path& folder, const report::StoredRun& run, Context& context) {
+  collision::Reconstruction r = report::read_collision_result(folder / "result.json");
+  collision::Options options;
+  OptionTable table = collision::describe(options);
+  const std::string command = command_of(run, folder.string(), table);
+  collision::Shot shot;
+  std::vector<collision::OverlayPicture> pictures;
+  try {  // without the shot the page has neither shapes nor clip, and says so
+    check_input(run.input, context);
+    shot = report::read_shot(run.input.path);
+    pictures = collision::write_overlay(shot, r, "", context);
+  } catch (const InputError& error) {
+    r.summary.warnings.push_back(fmt::format("shown without the clip: {}", error.what()));
+    context.warn(r.summary.warnings.back());
+  }
+  return {report::collision_title(run.input), report::collision_scene(r, run.input, table, command, shot, pictures)};
+}
+
 Shown read_result(const std::string& out, Context& context) {
   const std::filesystem::path folder(out), file = folder / "result.json";
   if (!std::filesystem::is_directory(folder)) throw InputError(out, "folder", "none", "the folder of a result");
@@ -111,7 +139,8 @@ Shown read_result(const std::string& out, Context& context) {
   const report::StoredRun run = report::read_stored_run(file);
   if (run.capability == "planes") return planes_result(folder, run, context);
   if (run.capability == "cuboids") return cuboids_result(folder, run, context);
-  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\" or \"cuboids\"");
+  if (run.capability == "collision") return collision_result(folder, run, context);
+  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\", \"cuboids\" or \"collision\"");
 }
 
 /// Shows a file in what the desktop opens pages with.

@@ -47,19 +47,6 @@ cuboids::PhotoEdit edit_of(const JsonField& field) {
   return edit;
 }
 
-/// Four rows of four numbers.
-Json matrix_of(const RigidTransform& T, double scale = 1.0) {
-  Json rows = Json::array();
-  for (int r = 0; r < 3; ++r) {
-    Json row = Json::array();
-    for (int c = 0; c < 3; ++c) row.push_back(number(scale * T.rotation(r, c)));
-    row.push_back(number(T.translation[r]));
-    rows.push_back(row);
-  }
-  rows.push_back({0.0, 0.0, 0.0, 1.0});
-  return rows;
-}
-
 }  // namespace
 
 std::vector<cuboids::PhotoEdit> parse_photo_edits(const std::string& text, const std::string& source) {

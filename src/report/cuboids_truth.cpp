@@ -9,15 +9,6 @@
 namespace unseen::report {
 namespace {
 
-Json rows_of(const RigidTransform& T) {
-  Json rows = Json::array();
-  for (int r = 0; r < 3; ++r)
-    rows.push_back({number(T.rotation(r, 0)), number(T.rotation(r, 1)), number(T.rotation(r, 2)),
-                    number(T.translation[r])});
-  rows.push_back({0.0, 0.0, 0.0, 1.0});
-  return rows;
-}
-
 }  // namespace
 
 std::string cuboids_truth_json(const cuboids::SynthView& view, const OptionTable& options) {
@@ -27,7 +18,7 @@ std::string cuboids_truth_json(const cuboids::SynthView& view, const OptionTable
   json["stands"] = truth.stands;
   json["view"] = view.number;
   json["azimuth_deg"] = degrees_of(view.azimuth);
-  json["T_world_camera"] = rows_of(truth.T_world_camera);
+  json["T_world_camera"] = matrix_of(truth.T_world_camera);
   json["supports"] = Json::array();
   for (const cuboids::Support& support : truth.supports)
     json["supports"].push_back({{"id", support.id},

@@ -46,11 +46,14 @@ Json vector_of(const Vec3& v) {
   return Json::array({number(v.x()), number(v.y()), number(v.z())});
 }
 
-Json matrix_of(const RigidTransform& t) {
+Json matrix_of(const RigidTransform& T, double scale) {
   Json rows = Json::array();
-  for (int r = 0; r < 3; ++r)
-    rows.push_back(
-        {number(t.rotation(r, 0)), number(t.rotation(r, 1)), number(t.rotation(r, 2)), number(t.translation[r])});
+  for (int r = 0; r < 3; ++r) {
+    Json row = Json::array();
+    for (int c = 0; c < 3; ++c) row.push_back(number(scale * T.rotation(r, c)));
+    row.push_back(number(T.translation[r]));
+    rows.push_back(row);
+  }
   rows.push_back({0.0, 0.0, 0.0, 1.0});
   return rows;
 }

@@ -22,8 +22,8 @@ Json degrees_of(double radians);
 
 Json vector_of(const Vec3& v);
 
-/// Four rows of four numbers.
-Json matrix_of(const RigidTransform& t);
+/// Four rows of four numbers, the rotation times `scale`.
+Json matrix_of(const RigidTransform& T, double scale = 1.0);
 
 /// An array of what `write(item, index)` makes of each item.
 template <class Items, class Write>

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "unseen/collision/options.h"
 #include "unseen/cuboids/options.h"
 #include "unseen/cuboids/synth.h"
 #include "unseen/io/describe.h"
@@ -58,6 +59,11 @@ TEST(Docs, SynthOptionsAreThoseOfTheProgram) {
 TEST(Docs, CuboidsOptionsAreThoseOfTheProgram) {
   cuboids::Options options;
   check_table("cuboids.md", "cuboids", markdown(cuboids::describe(options)));
+}
+
+TEST(Docs, CollisionOptionsAreThoseOfTheProgram) {
+  collision::Options options;
+  check_table("collision.md", "collision", markdown(collision::describe(options)));
 }
 
 TEST(Docs, SynthCuboidsOptionsAreThoseOfTheProgram) {

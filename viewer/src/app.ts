@@ -115,10 +115,10 @@ export class App {
     this.emit('before');
   }
 
-  get timeRange(): { start: number; end: number } | null {
+  get timeRange(): { start: number; end: number; rate: number } | null {
     const ranges = this.scenes.flatMap((s) => (s.model?.header.time ? [s.model.header.time] : []));
     if (ranges.length === 0) return null;
-    return { start: Math.min(...ranges.map((r) => r.start)), end: Math.max(...ranges.map((r) => r.end)) };
+    return { start: Math.min(...ranges.map((r) => r.start)), end: Math.max(...ranges.map((r) => r.end)), rate: Math.min(...ranges.map((r) => r.rate ?? 1)) };
   }
 
   setTime(t: number) {
@@ -203,7 +203,7 @@ export class App {
     this.lastTick = performance.now();
     const tick = (now: number) => {
       if (!this.playing) return;
-      const next = this.time + (now - this.lastTick) / 1000;
+      const next = this.time + (range.rate * (now - this.lastTick)) / 1000;
       this.lastTick = now;
       this.setTime(next);
       if (next >= range.end) this.setPlaying(false);

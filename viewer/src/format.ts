@@ -102,15 +102,24 @@ export interface ImageStructure extends Base {
   frames?: ArrayRef[];
   times?: ArrayRef;
 }
+export interface ArrowsStructure extends Base { kind: 'arrows'; origins: ArrayRef; vectors: ArrayRef }
 export interface MeshStructure extends Base { kind: 'mesh'; vertices: ArrayRef; triangles: ArrayRef }
 
 export type Structure =
   | PointsStructure | PlanesStructure | LinesStructure | BoxesStructure | GraphStructure | NormalsStructure
-  | TrajectoryStructure | SkeletonStructure | CameraStructure | ImageStructure | MeshStructure;
+  | TrajectoryStructure | SkeletonStructure | CameraStructure | ImageStructure | MeshStructure | ArrowsStructure;
 
 export type Cell = string | number | null;
 export interface Column { name: string; unit?: string; digits?: number }
 export interface Table { title: string; structure?: string; columns: Column[]; rows: Cell[][] }
+export interface Series { name: string; color: number; hollow?: boolean; x: ArrayRef; y: ArrayRef }
+export interface Chart {
+  title: string;
+  x: { name: string; unit?: string; seconds?: number };
+  y: { name: string; unit?: string };
+  series: Series[];
+  marks?: { x: number; name: string }[];
+}
 export interface Summary {
   status?: string;
   seconds?: Record<string, number>;
@@ -135,7 +144,8 @@ export interface Header {
   options?: OptionValue[];
   input?: { path?: string; sha256?: string };
   thinned?: { shown: number; of: number };
-  time?: { start: number; end: number };
+  time?: { start: number; end: number; rate?: number };
   structures: Structure[];
+  charts?: Chart[];
   tables?: Table[];
 }

@@ -67,6 +67,7 @@ export class Model {
       case 'skeleton': return Math.round(s.joints.count / Math.max(1, s.joint_count * s.times.count));
       case 'image': return s.frames?.length ?? 1;
       case 'mesh': return s.vertices.count;
+      case 'arrows': return s.origins.count;
       default: return 1;
     }
   }
@@ -159,7 +160,7 @@ export class Model {
     if (!s) return '';
     if (s.kind === 'graph') return s.node_names[selection.index] ?? `node ${selection.index}`;
     const kind = { points: 'point', planes: 'plane', lines: 'line', boxes: 'box', normals: 'direction', trajectory: 'body',
-                   skeleton: 'person', camera: 'camera', image: 'image', mesh: 'vertex' }[s.kind];
+                   skeleton: 'person', camera: 'camera', image: 'image', mesh: 'vertex', arrows: 'arrow' }[s.kind];
     return `${kind[0]!.toUpperCase()}${kind.slice(1)} ${selection.index}`;
   }
 }

@@ -179,13 +179,36 @@ test('time: play, step, and the image follows', async () => {
   await page.evaluate(() => window.unseen.setTime(0));
   await page.locator('.stage canvas').focus();
   await page.keyboard.press('ArrowRight');
-  assert.match(await page.locator('output[for=time]').innerText(), /0\.04 s/);
+  assert.match(await page.locator('output[for=time]').innerText(), /0\.040 s/);
   await page.keyboard.press(' ');
   await page.waitForTimeout(400);
   await page.keyboard.press(' ');
   assert.ok(Number.parseFloat(await page.locator('output[for=time]').innerText()) > 0.1);
   await page.getByRole('button', { name: 'Look through the camera' }).click();
   await settle(page);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test('a chart follows the time, and a click into it sets the time', async () => {
+  const { page, errors, close } = await open(browser, 'chart', pageOf('chart', [collisionScene()]));
+  const chart = page.locator('svg.chart'), cursor = chart.locator('.cursor'), mark = chart.locator('.mark');
+  assert.equal(await chart.locator('circle').count(), 122);
+  await page.evaluate(() => window.unseen.setTime(1));  // the impact, at frame 30
+  assert.equal(await cursor.getAttribute('x1'), Number(await mark.getAttribute('x1')).toFixed(1));
+  const box = await chart.boundingBox();
+  await page.mouse.click(box.x + box.width * ((await mark.getAttribute('x1')) / 340) + 40, box.y + 60);
+  assert.ok(Number.parseFloat(await page.locator('output[for=time]').innerText()) > 1.1);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test('arrows can be picked', async () => {
+  const { page, errors, close } = await open(browser, 'arrows', pageOf('arrows', [collisionScene()]));
+  const at = await page.evaluate(() => window.unseen.project('impulses', 1));
+  await page.mouse.click(at.x, at.y);
+  assert.deepEqual(await selection(page), { structure: 'impulses', index: 1 });
+  assert.match(await page.locator('.selection').innerText(), /ball/);
   assert.deepEqual(errors, []);
   await close();
 });

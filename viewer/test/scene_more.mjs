@@ -63,9 +63,13 @@ export function collisionScene() {
       { id: 'floor', kind: 'mesh', name: 'Floor', visible: true, vertices: b.plain([-2, 0, 0, 2, 0, 0, 2, 4, 0, -2, 4, 0], 3), triangles: b.plain([0, 1, 2, 0, 2, 3], 3, 'u32') },
       { id: 'bodies', kind: 'trajectory', name: 'Bodies', visible: true, times: b.plain(times), positions: b.plain([0, 1].flatMap((k) => times.flatMap((t) => at(t)[k])), 3),
         rotations: b.plain([0, 1].flatMap((k) => times.flatMap((t) => turn(t, k ? 2 : -3))), 4), shapes: [{ kind: 'box', size: [0.4, 0.25, 0.3] }, { kind: 'sphere', size: [0.36, 0.36, 0.36] }] },
+      { id: 'impulses', kind: 'arrows', name: 'Impulses at the contact', visible: true, origins: b.plain([0, 2.05, 1.7, 0, 2.05, 1.7], 3), vectors: b.plain([-2, 0, 0.2, 2, 0, -0.2], 3),
+        quantities: [{ id: 'on', name: 'On', kind: 'label', array: b.plain([0, 1], 1, 'i32'), names: ['box', 'ball'] }] },
       { id: 'camera', kind: 'camera', name: 'Camera', visible: true, T_world_camera: T, fx: f, fy: f, cx: w / 2, cy: h / 2, width: w, height: h, image: 'video' },
       { id: 'video', kind: 'image', name: 'Frames of the shot', visible: true, width: w, height: h, format: 'image/png', frames, times: b.plain(frameTimes) },
     ],
+    charts: [{ title: 'Residuals', x: { name: 'frame', seconds: 1 / 30 }, y: { name: 'distance', unit: 'px' }, marks: [{ x: 30, name: 'impact' }],
+      series: [0, 1].map((k) => ({ name: ['box', 'ball'][k], color: k, hollow: k === 1, x: b.plain(times.map((_, i) => i)), y: b.plain(times.map((t) => 0.4 + 0.3 * Math.sin(7 * t + k))) })) }],
     tables: [{ title: 'Bodies', structure: 'bodies', columns: [{ name: 'body' }, { name: 'mass', unit: 'kg', digits: 2 }], rows: [[0, 1.4], [1, 1]] }],
   }), b);
 }

@@ -7,6 +7,7 @@ import { nodeColors } from '../panels/graph';
 import { FatLines } from '../view/fat_lines';
 import { ElementTable } from '../view/shared';
 import { TriMesh } from '../view/tri_mesh';
+import { arrowScale, arrowSegments } from './arrow_lines';
 import { ColoredLayer } from './colored';
 import type { Hit, LayerContext, Look, View } from './layer';
 import { sphere } from './solids';
@@ -48,20 +49,8 @@ export class GraphLayer extends ColoredLayer {
 
   /** Forces act on the second node of an edge, drawn at the edge's middle; the longest is an eighth of the scene. */
   private addForces(vectors: Float32Array, segments: Float32Array, extent: number) {
-    let most = 0;
-    for (let e = 0; e < vectors.length / 3; ++e) most = Math.max(most, Math.hypot(vectors[3 * e]!, vectors[3 * e + 1]!, vectors[3 * e + 2]!));
-    const scale = most > 0 ? extent / 8 / most : 0;
-    const out: number[] = [];
-    for (let e = 0; e < vectors.length / 3; ++e) {
-      const v = new THREE.Vector3().fromArray(vectors, 3 * e).multiplyScalar(scale);
-      const from = new THREE.Vector3().fromArray(segments, 6 * e).add(new THREE.Vector3().fromArray(segments, 6 * e + 3)).multiplyScalar(0.5);
-      const to = from.clone().add(v);
-      out.push(...from.toArray(), ...to.toArray());
-      const aside = new THREE.Vector3(v.y, -v.x, 0);
-      if (aside.lengthSq() < 1e-3 * v.lengthSq()) aside.set(v.z, 0, -v.x);
-      aside.setLength(0.12 * v.length());
-      for (const sign of [1, -1]) out.push(...to.toArray(), ...to.clone().addScaledVector(v, -0.22).addScaledVector(aside, sign).toArray());
-    }
+    const middles = new Float32Array(vectors.length).map((_, i) => (segments[6 * Math.floor(i / 3) + (i % 3)]! + segments[6 * Math.floor(i / 3) + 3 + (i % 3)]!) / 2);
+    const out = arrowSegments(middles, vectors, arrowScale(vectors, extent));
     for (const [ink, width] of [[2, 6.5], [1, 3.2]] as const) {
       const arrows = new FatLines(this.context.shared, this.ink, { width, onTop: true });
       arrows.set(new Float32Array(out), new Uint8Array(out.length / 6).fill(ink));

@@ -3,6 +3,7 @@
 // The layer for each kind of structure. Spheres of normals and graphs without places have panels instead.
 import * as THREE from 'three';
 import type { Structure } from '../format';
+import { ArrowsLayer } from './arrows';
 import { BoxesLayer } from './boxes';
 import { CameraLayer, ImageLayer } from './camera';
 import { GraphLayer } from './graph';
@@ -21,6 +22,7 @@ export function makeLayer(context: LayerContext, s: Structure): Layer | null {
     case 'lines': return new LinesLayer(context, s);
     case 'boxes': return new BoxesLayer(context, s);
     case 'graph': return s.positions ? new GraphLayer(context, s, extentOf(context)) : null;
+    case 'arrows': return new ArrowsLayer(context, s, extentOf(context));
     case 'trajectory': return new TrajectoryLayer(context, s);
     case 'skeleton': return new SkeletonLayer(context, s);
     case 'camera': return new CameraLayer(context, s, extentOf(context));

@@ -3,6 +3,7 @@
 // What was found: facts, warnings, the selected element and the tables.
 import type { App, SceneView } from '../app';
 import { grouped, h } from '../dom';
+import { chartPanel } from './chart';
 import { factsOf } from './facts';
 import { tablePanel } from './table';
 
@@ -26,5 +27,6 @@ export function foundPanel(app: App, view: SceneView): HTMLElement {
     header.facts?.length ? h('dl', { class: 'facts' }, ...header.facts.map((f) => h('div', {}, h('dt', {}, f.name), h('dd', {}, f.value)))) : null,
     ...notes.map((n) => h('p', { class: 'note warning' }, n)),
     thinned ? h('p', { class: 'note' }, `The page shows ${grouped(thinned.shown)} of ${grouped(thinned.of)} points; the result is of all.`) : null,
+    ...(header.charts ?? []).map((c) => chartPanel(app, view, c)),
     ...(header.tables ?? []).map((t) => tablePanel(app, view, t)));
 }

@@ -40,8 +40,9 @@ function legendOf(view: SceneView, layer: Layer): { key: string; element: HTMLEl
     if (sorted.length > kMost) return { key: q.name, element: h('div', {}, head, h('p', { class: 'quiet' }, `${sorted.length} labels, one colour each; eight hues, then lighter and darker ones`)) };
     return { key: q.name, element: h('div', {}, head, h('ul', {}, ...sorted.map((v) => entry(css(labelColor(v)), String(v))), values.has(-1) && entry(css(kNone), 'none'))) };
   }
-  return { key: q.name, element: h('div', {}, head, h('ul', {}, ...names.slice(0, kMost).map((n, i) => entry(css(labelColor(i)), n)),
-    names.length > kMost && h('li', { class: 'quiet' }, `and ${names.length - kMost} more`))) };
+  const named = names.map((n, i) => ({ n, i })).filter(({ n }) => n !== '');
+  return { key: q.name, element: h('div', {}, head, h('ul', {}, ...named.slice(0, kMost).map(({ n, i }) => entry(css(labelColor(i)), n)),
+    named.length > kMost && h('li', { class: 'quiet' }, `and ${named.length - kMost} more`))) };
 }
 
 export function legend(app: App, view: SceneView): HTMLElement {

@@ -26,7 +26,7 @@ export function sliders(app: App): HTMLElement {
     const play = h('button', { type: 'button', class: 'tool', onclick: () => app.setPlaying(!app.playing) });
     const sync = () => {
       slider.value = String(app.time);
-      text.textContent = `${app.time.toFixed(2)} s`;
+      text.textContent = `${app.time.toFixed(range.end - range.start < 5 ? 3 : 2)} s`;
       slider.setAttribute('aria-valuetext', text.textContent);
     };
     const state = () => {

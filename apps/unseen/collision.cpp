@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/collision/collision.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "session.h"
+#include "unseen/collision/overlay.h"
+#include "unseen/core/error.h"
+#include "unseen/io/output_folder.h"
+#include "unseen/io/sha256.h"
+#include "unseen/report/collision_files.h"
+#include "unseen/report/collision_result.h"
+#include "unseen/report/collision_scene.h"
+#include "unseen/report/collision_shot.h"
+#include "unseen/report/page.h"
+#include "write_text.h"
+
+namespace unseen::cli {
+namespace {
+
+/// Everything that `unseen collision` can be told.
+struct Arguments {
+  std::string input, out, shell_command;
+  CommonFlags common;
+  bool no_report = false, no_overlay = false;
+  GivenOptions given;
+  collision::Options options;
+};
+
+std::string text_of(const collision::Estimate& e) { return fmt::format("{:.3f} ± {:.3f} (95 %: {:.3f}…{:.3f})", e.value, e.sd, e.low, e.high); }
+
+void print_impacts(const collision::Reconstruction& r) {
+  if (r.impacts.empty()) {
+    fmt::print("no collision found\n");
+    return;
+  }
+  const collision::Impact& first = r.impacts.front();
+  if (r.impacts.size() == 1)
+    fmt::print("one impact, at frame {:.2f} ({:.4f} s)\n", first.frame, first.time);
+  else
+    fmt::print("{} impacts, the first at frame {:.2f} ({:.4f} s)\n", r.impacts.size(), first.frame, first.time);
+}
+
+void print_summary(const collision::Reconstruction& r, const Arguments& args) {
+  print_impacts(r);
+  fmt::print("restitution: {}\n", r.restitution ? text_of(*r.restitution) : "no confident value");
+  if (r.fixed.empty() && r.bodies.size() == 2)
+    fmt::print("mass of {} to {}: {}\n", r.bodies[1].name, r.bodies[0].name, r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
+  if (r.energy_before > 0 && !r.impacts.empty())
+    fmt::print("kinetic energy: {:.0f} % kept\n", 100.0 * r.energy_after / r.energy_before);
+  if (!r.frames.empty())
+    fmt::print("{}: {:.2f} px in the frames used, {:.2f} px in those held out\n", r.fits ? "the model fits" : "the model does not fit", r.reprojection_rms, r.held_out_rms);
+  for (const collision::Alternative& a : r.ambiguous)
+    fmt::print("ambiguous: {} explains it too (restitution {:.3f}, mass ratio {:.3f})\n", a.what, a.restitution, a.mass_ratio);
+  for (const std::string& remark : r.observability) fmt::print("{}\n", remark);
+  fmt::print("{}: {}\n", args.no_report ? "result" : "report",
+             (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
+}
+
+void write_files(const collision::Shot& shot, collision::Reconstruction& r, const Arguments& args, const OptionTable& table,
+                 const io::OutputFolder& out, Context& context) {
+  const report::InputRecord input = {args.input, io::sha256(args.input, context)};
+  std::vector<collision::OverlayPicture> pictures;
+  if (!args.no_overlay) {
+    const Stage stage(context, r.summary, "overlay");
+    pictures = collision::write_overlay(shot, r, out.file("overlay.mp4"), context);
+  }
+  if (!args.no_report)
+    write_text(out.file("report.html"),
+               report::page_of(report::collision_title(input), {report::collision_scene(r, input, table, args.shell_command, shot, pictures)}));
+  write_text(out.file("result.json"), report::collision_json(r, input, table));
+  if (!r.frames.empty()) write_text(out.file("scene.glb"), report::collision_glb(shot, r));
+}
+
+int run(Arguments& args) {
+  OptionTable table = collision::describe(args.options);
+  if (resolve_or_dump(table, args.common, "collision", args.given)) return kSolved;
+  require(args.input, "SHOT.json");
+  require(args.out, "-o OUT");
+
+  Session session(args.common);
+  Context& context = session.context;
+
+  const collision::Shot shot = report::read_shot(args.input);
+  io::OutputFolder out(args.out);
+  collision::Reconstruction r = collision::reconstruct(shot, args.options, context);
+  if (r.summary.status == Status::cancelled) throw Cancelled();
+  write_files(shot, r, args, table, out, context);
+  context.check();
+  session.progress.warn(r.summary.warnings);
+  session.progress.warn(out.commit());
+
+  if (args.common.json) {
+    fmt::print("{}", report::summary_json(r.summary));
+  } else if (!args.common.quiet) {
+    print_summary(r, args);
+  }
+  return r.summary.status == Status::infeasible ? kNoSolution : kSolved;
+}
+
+}  // namespace
+
+Command add_collision(CLI::App& app, const std::string& shell_command) {
+  auto args = std::make_shared<Arguments>();
+  args->shell_command = shell_command;
+  CLI::App* sub = app.add_subcommand("collision", "Reconstruct two bodies that collide once, or one that bounces, from a video");
+  sub->add_option("SHOT", args->input, "a shot file (SHOT.json): the video, the camera, the two bodies");
+  sub->add_option("-o", args->out, "the folder for the result; made if it does not exist")->type_name("OUT");
+  add_flags(*sub, collision::describe(args->options), args->given);
+  sub->add_flag("--no-overlay", args->no_overlay, "leave out overlay.mp4 and the clip in the page");
+  sub->add_flag("--no-report", args->no_report, "leave out report.html");
+  add_flags(*sub, args->common);
+  sub->footer(
+      "Examples:\n  unseen collision shot.json -o out\n  unseen collision bounce.json -o out --shared-restitution\n"
+      "  unseen collision shot.json -o out --drag on --starts 64");
+  return {sub, [args] { return run(*args); }};
+}
+
+}  // namespace unseen::cli

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/report/collision_scene.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "report/collision_motion.h"
+#include "report/collision_structures.h"
+#include "unseen/core/version.h"
+
+namespace unseen::report {
+namespace {
+
+using namespace collision;
+
+Json column(std::string_view name, std::string_view unit = "", int digits = -1) {
+  Json json = {{"name", name}, {"unit", unit}};
+  if (digits >= 0) json["digits"] = digits;
+  return json;
+}
+
+void add_table(SceneBuilder& scene, std::string_view title, Json columns, Json rows) {
+  if (!rows.empty()) scene.header["tables"].push_back({{"title", title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}});
+}
+
+Json or_null(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
+
+Json row_of(std::string_view name, const Estimate& e) { return {name, number(e.value), number(e.sd), number(e.low), number(e.high)}; }
+
+void add_value_table(SceneBuilder& scene, const Reconstruction& r) {
+  Json rows = Json::array();
+  if (r.restitution) rows.push_back(row_of("restitution", *r.restitution));
+  if (r.mass_ratio) rows.push_back(row_of(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), *r.mass_ratio));
+  if (r.energy_before > 0) {
+    const auto energy = [&](const char* when, double value) { rows.push_back({fmt::format("energy {}, J/kg", when), number(value), nullptr, nullptr, nullptr}); };
+    energy("before", r.energy_before);
+    energy("after", r.energy_after);
+  }
+  add_table(scene, "Values", {column("value of"), column("value", "", 4), column("sd", "", 4), column("95 % from", "", 4), column("to", "", 4)}, std::move(rows));
+}
+
+void add_impact_table(SceneBuilder& scene, const Reconstruction& r) {
+  Json rows = Json::array();
+  for (const Impact& i : r.impacts)
+    rows.push_back({number(i.frame), number(i.time), number(i.restitution.value), number(i.restitution.low), number(i.restitution.high),
+                    or_null(i.tangential_restitution), or_null(i.friction), number(i.impulse.norm())});
+  add_table(scene, "Impacts",
+            {column("frame", "", 2), column("time", "s", 4), column("restitution", "", 3), column("95 % from", "", 3), column("to", "", 3),
+             column("tangential", "", 3), column("friction", "", 3), column("impulse", "m/s", 3)},
+            std::move(rows));
+}
+
+void add_body_table(SceneBuilder& scene, const Reconstruction& r) {
+  Json rows = Json::array();
+  for (const BodyResult& b : r.bodies) {
+    if (b.fixed) continue;
+    for (const auto& [when, state] : {std::pair("before", &b.before), std::pair("after", &b.after)})
+      rows.push_back({b.name, when, number(state->v.norm()), fmt::format("{:.2f}, {:.2f}, {:.2f}", state->v.x(), state->v.y(), state->v.z()), number(state->k.norm())});
+  }
+  add_table(scene, "Bodies at the impact",
+            {column("body"), column("when"), column("speed", "m/s", 3), column("velocity", "m/s"), column("angular momentum", "m²/s", 5)}, std::move(rows));
+}
+
+void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
+  Json alternatives = Json::array(), terms = Json::array(), weak = Json::array();
+  for (const Alternative& a : r.ambiguous) alternatives.push_back({a.what, number(a.restitution), number(a.mass_ratio), number(a.excess)});
+  for (const Term& t : r.terms) terms.push_back({t.name, number(t.residual), number(t.weight)});
+  for (const std::string& text : r.observability) weak.push_back({text});
+  add_table(scene, "Ambiguous: also explained by", {column("what"), column("restitution", "", 3), column("mass ratio", "", 3), column("larger χ² by", "", 1)},
+            std::move(alternatives));
+  add_table(scene, "Evidence", {column("term"), column("residual", "σ", 2), column("weight")}, std::move(terms));
+  add_table(scene, "What the clip tells", {column("remark")}, std::move(weak));
+}
+
+std::string text_of(const Estimate& e) { return fmt::format("{:.3f} ± {:.3f}", e.value, e.sd); }
+
+Json facts_of(const Reconstruction& r) {
+  Json facts = Json::array();
+  const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
+  fact("restitution", r.restitution ? text_of(*r.restitution) : "no confident value");
+  if (r.fixed.empty()) fact("mass ratio", r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
+  fact("the model fits", r.fits ? "yes" : "no");
+  if (!r.ambiguous.empty()) fact("ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"));
+  fact("impacts", std::to_string(r.impacts.size()));
+  if (!r.impacts.empty()) fact("first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
+  if (r.energy_before > 0) fact("kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
+  fact("reprojection", fmt::format("{:.2f} px", r.reprojection_rms));
+  if (r.held_out_rms > 0) fact("held-out frames", fmt::format("{:.2f} px", r.held_out_rms));
+  if (r.drag) fact("drag", fmt::format("{:.4g} 1/m", *r.drag));
+  return facts;
+}
+
+/// What flies, not the camera that saw it from afar.
+std::optional<Json> focus_of(const Reconstruction& r) {
+  Eigen::AlignedBox3d reach;
+  for (const FramePose& f : r.frames)
+    for (const auto& body : f.bodies)
+      if (body) reach.extend(body->p);
+  if (reach.isEmpty()) return std::nullopt;
+  const Vec3 margin = Vec3::Constant(std::max(0.05, 0.15 * reach.sizes().maxCoeff()));
+  return Json({{"low", vector_of(reach.min() - margin)}, {"high", vector_of(reach.max() + margin)}});
+}
+
+}  // namespace
+
+std::string collision_scene(const Reconstruction& r, const InputRecord& input, const OptionTable& options, const std::string& command,
+                            const Shot& shot, const std::vector<OverlayPicture>& pictures) {
+  SceneBuilder scene(Vec3::Zero());
+  Json& header = scene.header;
+  header["title"] = collision_title(input);
+  header["capability"] = "collision";
+  header["command"] = command;
+  header["version"] = kVersion;
+  header["inside"] = false;
+  if (const auto focus = focus_of(r)) header["focus"] = *focus;
+  header["facts"] = facts_of(r);
+  header["summary"] = summary_of(r.summary);
+  header["options"] = Json::array();
+  for (const Option& o : options.all()) header["options"].push_back({{"name", o.name}, {"value", o.text()}, {"unit", o.unit}, {"help", o.help}});
+  header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
+  add_bodies(scene, shot, r);
+  add_fixed(scene, shot, r);
+  add_flights(scene, r, shot.gravity);
+  add_impacts(scene, r);
+  add_clip(scene, r, pictures);
+  add_residual_chart(scene, r);
+  add_value_table(scene, r);
+  add_impact_table(scene, r);
+  add_body_table(scene, r);
+  add_evidence_tables(scene, r);
+  return scene.encode();
+}
+
+std::string collision_title(const InputRecord& input) {
+  const std::string name = std::filesystem::path(input.path).filename().string();
+  return "Collision of " + (name.empty() ? input.path : name);
+}
+
+}  // namespace unseen::report
