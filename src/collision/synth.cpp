@@ -100,7 +100,8 @@ SynthShot simulate(const SynthOptions& options) {
     result.shot = shot_of(plan, truth, options);
     return result;
   }
-  throw InputError("synth", "scene", options.scene + " with these options", "options under which two bodies can be filmed before and after they meet");
+  throw InputError("synth", "scene", options.scene + " with these options",
+                   "options under which bodies can be filmed before and after they meet");
 }
 
 }  // namespace unseen::collision

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <array>
+
 #include "collision/synth_body.h"
 
 namespace unseen::collision {

@@ -23,9 +23,9 @@ struct Patch {
 };
 
 Patch patch_around(const Vec2& center, double radius, const Camera& camera) {
-  return {std::clamp(static_cast<int>(center.x() - radius), 0, camera.width), std::clamp(static_cast<int>(center.y() - radius), 0, camera.height),
-          std::clamp(static_cast<int>(center.x() + radius) + 2, 0, camera.width),
-          std::clamp(static_cast<int>(center.y() + radius) + 2, 0, camera.height)};
+  const auto column = [&](double u) { return std::clamp(static_cast<int>(u), 0, camera.width); };
+  const auto row = [&](double v) { return std::clamp(static_cast<int>(v), 0, camera.height); };
+  return {column(center.x() - radius), row(center.y() - radius), column(center.x() + radius + 2), row(center.y() + radius + 2)};
 }
 
 Patch united(const Patch& a, const Patch& b) {

@@ -86,7 +86,8 @@ TEST_F(SynthFiles, TruthAndShotComeBackToTheSameBits) {
     ASSERT_EQ(shot.observations.size(), made.shot.observations.size());
     EXPECT_EQ(shot.observations.back().pixel, made.shot.observations.back().pixel);
     ASSERT_EQ(shot.orientations.size(), made.shot.orientations.size());
-    for (std::size_t i = 0; i < shot.orientations.size(); ++i) EXPECT_LT(shot.orientations[i].q.angularDistance(made.shot.orientations[i].q), 1e-7);
+    for (std::size_t i = 0; i < shot.orientations.size(); ++i)
+      EXPECT_LT(shot.orientations[i].q.angularDistance(made.shot.orientations[i].q), 1e-7);
   }
 }
 

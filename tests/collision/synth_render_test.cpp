@@ -46,7 +46,10 @@ cv::Mat mask_of(const Picture& picture, const Picture& background, int width, in
   cv::Mat mask(height, width, CV_8U);
   for (int i = 0; i < width * height; ++i) {
     int most = 0;
-    for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(picture[static_cast<std::size_t>(3 * i + c)] - background[static_cast<std::size_t>(3 * i + c)]));
+    for (int c = 0; c < 3; ++c) {
+      const auto at = static_cast<std::size_t>(3 * i + c);
+      most = std::max(most, std::abs(picture[at] - background[at]));
+    }
     mask.data[i] = most > least ? 255 : 0;
   }
   return mask;

@@ -141,7 +141,7 @@ std::vector<Vec3> corners(const Body& body, const BodyState& s) {
   const Vec3 center = mass_properties(body, "test").center;
   for (const Vec3& v : body.mesh.vertices) all.push_back(s.p + s.q * (v - center));
   for (int i = 0; body.shape == Shape::box && i < 8; ++i)
-    all.push_back(s.p + s.q * (0.5 * Vec3(i & 1 ? body.box.x() : -body.box.x(), i & 2 ? body.box.y() : -body.box.y(), i & 4 ? body.box.z() : -body.box.z())));
+    all.push_back(s.p + s.q * (0.5 * body.box.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1))));
   return all;
 }
 
@@ -267,12 +267,14 @@ TEST(Synth, TracksAreProjectionsWithinTheirNoise) {
   const RigidTransform T = truth.T_world_camera.inverse();
   for (const Sighting& s : exact.shot.observations) {
     EXPECT_GT(std::abs(s.frame - truth.impacts[0].frame), 5.5);
-    EXPECT_LT((s.pixel - truth.camera.project(T * truth.frames[static_cast<std::size_t>(s.frame)].bodies[static_cast<std::size_t>(s.body)]->p)).norm(), 1e-9);
+    const auto& body = truth.frames[static_cast<std::size_t>(s.frame)].bodies[static_cast<std::size_t>(s.body)];
+    EXPECT_LT((s.pixel - truth.camera.project(T * body->p)).norm(), 1e-9);
   }
   EXPECT_EQ(exact.shot.orientations.size(), 12u);
   for (const OrientationHint& o : exact.shot.orientations) {
     const auto frame = static_cast<std::size_t>(std::lround(o.time * truth.fps));
-    EXPECT_LT((Quat(truth.T_world_camera.rotation) * o.q).angularDistance(truth.frames[frame].bodies[static_cast<std::size_t>(o.body)]->q), 1e-7);
+    const Quat q = Quat(truth.T_world_camera.rotation) * o.q;
+    EXPECT_LT(q.angularDistance(truth.frames[frame].bodies[static_cast<std::size_t>(o.body)]->q), 1e-7);
   }
   options.centroid_noise = 0.1;
   options.orientation_noise = 5;

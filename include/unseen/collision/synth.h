@@ -61,7 +61,11 @@ struct SynthShot {
 };
 
 /// Simulates free flight and rigid impact in closed form and by a fine Runge–Kutta of Euler's equations, with Coulomb friction at the
-/// contact; shares no code with the solver. Same options, same bytes. Throws InputError for options outside their range.
+/// contact; shares no code with the solver. Same options, same bytes. Throws InputError for options outside their range, or under
+/// which no shot of the scene comes about. Without a video, `shot.observations` are projected centres of mass with the radius of a disc
+/// of the silhouette's area, in all frames in which they lie in the picture, and `shot.orientations` are spread evenly over each flight.
+/// The shot ends early where a body comes to rest, and box-floor before its second contact. The floor of rain is no body: bounces off it
+/// are in the motion but not among the impacts. Planar shots of odd seeds tell metres_per_pixel beside the bodies' sizes.
 SynthShot simulate(const SynthOptions& options);
 
 /// The shot's frames, 8-bit BGR, row by row, one after the other; what `film` is called with. Deterministic.
