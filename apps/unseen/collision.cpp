@@ -54,7 +54,8 @@ void print_summary(const collision::Reconstruction& r, const Arguments& args) {
   if (r.energy_before > 0 && !r.impacts.empty())
     fmt::print("kinetic energy: {:.0f} % kept\n", 100.0 * r.energy_after / r.energy_before);
   if (!r.frames.empty())
-    fmt::print("{}: {:.2f} px in the frames used, {:.2f} px in those held out\n", r.fits ? "the model fits" : "the model does not fit", r.reprojection_rms, r.held_out_rms);
+    fmt::print("{}: {:.2f} px in the frames used{}\n", r.fits ? "the model fits" : "the model does not fit", r.reprojection_rms,
+               r.held_out_rms > 0 ? fmt::format(", {:.2f} px in those held out", r.held_out_rms) : "");
   for (const collision::Alternative& a : r.ambiguous)
     fmt::print("ambiguous: {} explains it too (restitution {:.3f}, mass ratio {:.3f})\n", a.what, a.restitution, a.mass_ratio);
   for (const std::string& remark : r.observability) fmt::print("{}\n", remark);

@@ -81,12 +81,12 @@ Json facts_of(const Reconstruction& r) {
   const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
   fact("restitution", r.restitution ? text_of(*r.restitution) : "no confident value");
   if (r.fixed.empty()) fact("mass ratio", r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
-  fact("the model fits", r.fits ? "yes" : "no");
+  if (!r.frames.empty()) fact("the model fits", r.fits ? "yes" : "no");
   if (!r.ambiguous.empty()) fact("ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"));
   fact("impacts", std::to_string(r.impacts.size()));
   if (!r.impacts.empty()) fact("first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
   if (r.energy_before > 0) fact("kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
-  fact("reprojection", fmt::format("{:.2f} px", r.reprojection_rms));
+  if (r.reprojection_rms > 0) fact("reprojection", fmt::format("{:.2f} px", r.reprojection_rms));
   if (r.held_out_rms > 0) fact("held-out frames", fmt::format("{:.2f} px", r.held_out_rms));
   if (r.drag) fact("drag", fmt::format("{:.4g} 1/m", *r.drag));
   return facts;

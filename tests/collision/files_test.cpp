@@ -7,7 +7,10 @@
 #include "collision/sample.h"
 #include "unseen/collision/options.h"
 #include "unseen/core/error.h"
+#include "unseen/report/collision_evaluation.h"
+#include "unseen/report/collision_files.h"
 #include "unseen/report/collision_result.h"
+#include "unseen/report/collision_scene.h"
 
 namespace unseen::report {
 namespace {
@@ -116,6 +119,36 @@ TEST(CollisionResult, RefusesHostileText) {
     json.erase(key);
     EXPECT_THROW(parse_collision_result(json.dump(), "a.json"), InputError) << key;
   }
+}
+
+TEST(CollisionFiles, AreWrittenEvenOfNothing) {
+  collision::Options options;
+  const OptionTable table = collision::describe(options);
+  const collision::Sample s = collision::sample_two_bodies();
+  for (const Reconstruction& r : {Reconstruction{}, s.result})
+    for (const collision::Shot& shot : {collision::Shot{}, s.shot}) {
+      EXPECT_GT(collision_scene(r, {"shot.json", ""}, table, "unseen collision", shot, {}).size(), 100u);
+      EXPECT_EQ(collision_glb(shot, r).substr(0, 4), "glTF");
+    }
+  EXPECT_EQ(collision_title({"a/shot.json", ""}), "Collision of shot.json");
+}
+
+TEST(CollisionEvaluation, SaysWhatWasMeasured) {
+  CollisionEvaluation e;
+  e.scene = "boxes";
+  e.scores.restitution = collision::ValueScore{0.62, 0.6, 0.02, true};
+  e.scores.motions = {{"box", 61, 0.01, 0.008, 0.006, radians(1.5)}, {"ball", 58, 0.02, 0.02, 0.001, std::nullopt}};
+  e.scores.true_impacts = e.scores.impacts = e.scores.found = 1;
+  e.scores.time = 0.1;
+  const auto json = nlohmann::json::parse(evaluation_json(e));
+  EXPECT_EQ(json["capability"], "collision");
+  EXPECT_EQ(json["restitution"]["covered"], true);
+  EXPECT_EQ(json["mass_ratio"], nullptr);
+  EXPECT_EQ(json["motions"][0]["rotation_deg"], 1.5);
+  EXPECT_EQ(json["motions"][1]["rotation_deg"], nullptr);
+  EXPECT_EQ(json["penetration"], nullptr);
+  const std::string text = evaluation_table(e);
+  for (const char* part : {"0.6200", "no value", "1.50°", "0.100 frames", "1 of 1"}) EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ import unittest
 import jsonschema
 import numpy
 
+from scene import scenes_of
+
 HERE = pathlib.Path(__file__).parent
 SCHEMAS = pathlib.Path(os.environ["UNSEEN_SOURCE_DIR"]) / "docs/schema"
 KINDS = ("two", "bounces")
@@ -52,6 +54,32 @@ class Collision(unittest.TestCase):
         for change in ({"observations": "obs.json"}, {"vidoe": 1}, {"fps": 0}, {"bodies": shot["bodies"][:1]}, {"camera": {"fx": 900}},
                        {"bodies": [{"name": "ball", "sphere": 400}, shot["bodies"][1]]}):
             self.assertFalse(check.is_valid({**shot, **change}), change)
+
+    def test_the_page_shows_what_the_result_says(self):
+        for kind in KINDS:
+            result = json.loads((self.folder / kind / "result.json").read_text())
+            scene, = scenes_of(self.folder / kind / "report.html")
+            bodies = scene["bodies"]
+            times = scene.array(bodies["times"])[:, 0]
+            paths = scene.array(bodies["positions"]).reshape(len(bodies["shapes"]), len(times), 3)
+            self.assertTrue((numpy.diff(times) > 0).all())
+            for frame in result["frames"]:
+                at = numpy.abs(times - frame["t"]).argmin()
+                self.assertLess(numpy.abs(paths[0, at] - frame["a"]["p"]).max(), 1e-6)
+            impulses = scene.array(scene["impulses"]["vectors"]).reshape(-1, 3, 3)  # on a, on b, the normal
+            self.assertEqual(len(impulses), len(result["impacts"]))
+            self.assertLess(numpy.abs(impulses[:, 0] + impulses[:, 1]).max(), 1e-6)
+            self.assertLess(numpy.abs(impulses[0, 0] - result["impulse"]).max(), 1e-6)
+            flights = scene.quantity("flights", "flight")
+            moving = sum("fixed" not in body for body in result["bodies"])
+            self.assertEqual(len(set(flights)), moving * (1 + len(result["impacts"])))
+            off = scene.quantity("flights", "residual")
+            self.assertLess(numpy.abs(off[numpy.isfinite(off)] - 0.25).max(), 1e-6)
+            chart, = scene.header["charts"]
+            self.assertEqual([mark["x"] for mark in chart["marks"]], [impact["frame"] for impact in result["impacts"]])
+            self.assertEqual(sum(series["x"]["count"] for series in chart["series"]), len(result["residuals"]))
+            facts = {fact["name"]: fact["value"] for fact in scene.header["facts"]}
+            self.assertTrue(facts["restitution"].startswith(f"{result['restitution']['value']:.3f} ± "))
 
     @unittest.skipUnless(shutil.which("node") and (HERE / "node_modules/gltf-validator").is_dir(), "gltf-validator is not installed (npm ci in tests/exchange)")
     def test_khronos_finds_nothing_in_the_scenes(self):

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "unseen/collision/options.h"
+#include "unseen/collision/synth.h"
 #include "unseen/cuboids/options.h"
 #include "unseen/cuboids/synth.h"
 #include "unseen/io/describe.h"
@@ -64,6 +65,11 @@ TEST(Docs, CuboidsOptionsAreThoseOfTheProgram) {
 TEST(Docs, CollisionOptionsAreThoseOfTheProgram) {
   collision::Options options;
   check_table("collision.md", "collision", markdown(collision::describe(options)));
+}
+
+TEST(Docs, SynthCollisionOptionsAreThoseOfTheProgram) {
+  collision::SynthOptions options;
+  check_table("collision.md", "synth collision", markdown(collision::describe(options)));
 }
 
 TEST(Docs, SynthCuboidsOptionsAreThoseOfTheProgram) {
