@@ -66,31 +66,39 @@ std::vector<Alternative> alternatives(const Problem& problem, const std::vector<
   return others;
 }
 
+/// Each state's fit; those that end far above the best are left out.
+std::vector<Fit> fits_from(const Problem& problem, const std::vector<State>& from, Fit (*step)(const Problem&, const State&), double worse, Context& context) {
+  std::vector<Fit> fits(from.size());
+  parallel_blocks(context, from.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) fits[i] = step(problem, from[i]);
+  });
+  context.check();
+  std::erase_if(fits, [](const Fit& fit) { return !fit.usable; });
+  std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
+  if (!fits.empty()) std::erase_if(fits, [limit = fits.front().cost + worse](const Fit& fit) { return fit.cost > limit; });
+  return fits;
+}
+
+std::vector<State> states_of(const std::vector<Fit>& fits) {
+  std::vector<State> states;
+  for (const Fit& fit : fits) states.push_back(fit.state);
+  return states;
+}
+
 }  // namespace
 
 Solution best_fit(Problem problem, double time, int starts, Context& context) {
+  constexpr double kHopeless = 40.0, kPoor = 15.0;  // ½ χ² above the best, before and after the shapes were made to touch
   Solution solution;
-  std::vector<Fit> fits;
-  Fit best;
-  constexpr int kRounds = 2;  // the second with the noise that the first found
-  for (int round = 0; round < kRounds; ++round) {
-    std::vector<State> from;
-    for (const Fit& fit : fits)
-      if (fit.usable) from.push_back(fit.state);
-    if (round == 0) from = start_states(problem, time, starts);
-    fits.assign(from.size(), {});
-    parallel_blocks(context, from.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) fits[i] = solve(problem, from[i]);
-    });
-    context.check();
-    best = {};
-    for (const Fit& fit : fits)
-      if (fit.usable && (!best.usable || fit.cost < best.cost)) best = fit;
-    if (!best.usable) break;
-    if (round + 1 < kRounds) estimate_noise(problem, best.state);
+  std::vector<Fit> fits = fits_from(problem, start_states(problem, time, starts), approach, kHopeless, context);
+  fits = fits_from(problem, states_of(fits), settle, kPoor, context);
+  if (!fits.empty()) {
+    estimate_noise(problem, fits.front().state);
+    const std::vector<Fit> again = fits_from(problem, states_of(fits), settle, kPoor, context);
+    if (!again.empty()) fits = again;
+    solution.fit = fits.front();
+    solution.others = alternatives(problem, fits, fits.front());
   }
-  if (best.usable) solution.others = alternatives(problem, fits, best);
-  solution.fit = std::move(best);
   solution.problem = std::move(problem);
   return solution;
 }

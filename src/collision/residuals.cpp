@@ -128,6 +128,23 @@ struct RestitutionTerm : Base {
   }
 };
 
+/// Nobody throws faster than some turns a second: keeps what little was seen of from running away.
+struct SpinTerm : Base {
+  static constexpr int kResiduals = 12;
+  template <class T>
+  void of_state(const StateT<T>& s, T* r) const {
+    constexpr double kUsual = 40.0;  // rad/s
+    for (int o = 0; o < 2; ++o) {
+      const double scale = problem.solids[o].mass.inertia.mean() * kUsual;
+      for (int i = 0; i < 3; ++i) {
+        const bool counts = problem.turns(o) && scale > 0.0;
+        r[6 * o + i] = counts ? s.h[o][i] / scale : T(0.0);
+        r[6 * o + 3 + i] = counts ? s.h_after[o][i] / scale : T(0.0);
+      }
+    }
+  }
+};
+
 /// Shapes unknown: the contact point is near the middle, which fixes where along the impulse it is.
 struct MidpointTerm : Base {
   static constexpr int kResiduals = 3;
@@ -296,6 +313,7 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
   if (terms.orientation)
     for (const OrientationObservation& seen : problem.orientations)
       adder.add("orientation", OrientationTerm{base, seen}, new ceres::HuberLoss(kOrientationHuber));
+  if (!problem.orientations.empty()) adder.add("spin", SpinTerm{base});
   if (terms.gravity && problem.gravity > 0.0) adder.add("gravity", GravityTerm{base});
   if (terms.energy) adder.add("energy", EnergyTerm{base});
   if (terms.restitution) adder.add("restitution", RestitutionTerm{base});

@@ -50,12 +50,13 @@ Vec3T<T> angular_velocity(const QuatT<T>& q, const Vec3T<T>& h, const Eigen::Vec
 /// methods on manifolds", 1999) of at most `kTurn` rad; exact for a sphere.
 template <class T>
 QuatT<T> turned(QuatT<T> q, const Vec3T<T>& h, const Eigen::Vector3d& inertia, const T& dt) {
-  constexpr double kTurn = 0.25;
+  constexpr double kTurn = 0.3;
+  constexpr int kMostSteps = 150;  // 45 rad: faster bodies are beyond what a video shows
   if (inertia.maxCoeff() - inertia.minCoeff() <= 1e-12 * inertia.maxCoeff()) return rotation_by<T>(h * (dt / inertia.x())) * q;
   double square = 0.0;
   for (int i = 0; i < 3; ++i) square += value_of(h[i]) * value_of(h[i]);
   const double angle = std::sqrt(square) / inertia.minCoeff() * std::abs(value_of(dt));
-  const int steps = std::clamp(static_cast<int>(std::ceil(angle / kTurn)), 1, 400);
+  const int steps = std::clamp(static_cast<int>(std::ceil(angle / kTurn)), 1, kMostSteps);
   const T step = dt / static_cast<double>(steps);
   for (int i = 0; i < steps; ++i) {
     const Vec3T<T> k1 = angular_velocity<T>(q, h, inertia) * step;

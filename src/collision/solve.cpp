@@ -139,26 +139,33 @@ Estimate estimate(const Wide& value, const Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-Fit solve(const Problem& problem, const State& start) {
-  constexpr int kFirst = 30, kNext = 40, kTouches = 6;
+Fit approach(const Problem& problem, const State& start) {
+  constexpr int kIterations = 25;
   Fit fit;
   fit.state = start;
   fit.state.normal.reset();
   if (!problem.terms.soft && !problem.orientations.empty()) {  // momenta on both sides first, then the impulse that joins them
     Problem apart = problem;
     apart.terms.soft = true;
-    if (!descend(apart, std::nullopt, kFirst, fit.state, fit.cost)) fit.state = start;
+    if (!descend(apart, std::nullopt, kIterations, fit.state, fit.cost)) fit.state = start;
   }
-  fit.usable = descend(problem, std::nullopt, kFirst, fit.state, fit.cost);
-  for (int i = 0; i < kTouches && fit.usable; ++i) {
+  fit.usable = descend(problem, std::nullopt, kIterations, fit.state, fit.cost);
+  return fit;
+}
+
+Fit settle(const Problem& problem, const State& start) {
+  constexpr int kIterations = 30, kTouches = 6;
+  Fit fit;
+  fit.state = start;
+  for (int i = 0; i < kTouches; ++i) {
     const std::optional<Vec3> before = fit.state.normal;
+    const double cost_before = fit.cost;
     fit.touch = touch_of(problem, fit.state);
     fit.state.normal = normal_of(problem, fit.touch);
-    if (fit.touch && i == 0) fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
-    const double cost_before = fit.cost;
-    fit.usable = descend(problem, fit.touch, kNext, fit.state, fit.cost);
+    if (fit.touch && !before) fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
+    fit.usable = descend(problem, fit.touch, kIterations, fit.state, fit.cost);
     const bool same_normal = before.has_value() == fit.state.normal.has_value() && (!before || (*before - *fit.state.normal).norm() < 1e-6);
-    if (!fit.touch || (i > 0 && same_normal && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
+    if (!fit.usable || !fit.touch || (i > 0 && same_normal && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
   }
   if (fit.usable) fit.terms = term_sizes(problem, fit);
   return fit;

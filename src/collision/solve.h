@@ -19,8 +19,11 @@ struct Fit {
   Eigen::MatrixXd covariance;        ///< of the kUnknowns parameters; 0 for what was held; empty until asked for
 };
 
-/// The nearest minimum from `start`: first with the contact point near the middle of the bodies, then, if they are known, where the shapes touch.
-Fit solve(const Problem& problem, const State& start);
+/// Down towards the nearest minimum, the contact point somewhere near the middle of the bodies.
+Fit approach(const Problem& problem, const State& start);
+
+/// From there, or from a solution of a similar problem, to the minimum with the shapes, if they are known, touching at the impact.
+Fit settle(const Problem& problem, const State& start);
 
 /// Fills in the covariance of a fit.
 void add_covariance(const Problem& problem, Fit& fit);

@@ -86,7 +86,7 @@ std::vector<SpinGuess> spin_guesses(const Problem& problem, int body, bool after
     guess.q = turned<double>(guess.q, guess.h, inertia, seen[0]->time - seen[near]->time);
     guess = refined(seen, inertia, problem.orientation_sigma, guess);
     guess.q = turned<double>(guess.q, guess.h, inertia, time - seen[0]->time);
-    guesses.push_back(guess);
+    if (angular_velocity<double>(guess.q, guess.h, inertia).norm() < kFastest) guesses.push_back(guess);
   }
   std::stable_sort(guesses.begin(), guesses.end(), [](const SpinGuess& a, const SpinGuess& b) { return a.cost < b.cost; });
   return guesses;

@@ -79,7 +79,7 @@ std::vector<State> start_states(const Problem& problem, double time, int count) 
   if (!problem.orientations.empty()) {  // impulse and time first, for what they tell of the turning
     Problem centers = problem;
     centers.orientations.clear();
-    const Fit fit = solve(centers, base);
+    const Fit fit = approach(centers, base);
     if (fit.usable) base = fit.state;
     time = base.time;
   }

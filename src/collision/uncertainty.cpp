@@ -89,7 +89,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   parallel_blocks(context, drawn.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       context.check();
-      const Fit fit = solve(drawn[i], solution.fit.state);
+      const Fit fit = settle(drawn[i], solution.fit.state);
       if (!fit.usable) continue;
       c[i] = std::clamp(restitution<double>(drawn[i], fit.state, values_of(drawn[i], fit.state)), 0.0, 1.0);
       m[i] = fit.state.mass_ratio;
