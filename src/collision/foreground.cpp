@@ -165,7 +165,7 @@ std::vector<Part> find_parts(const cv::Mat& frame, const Background& background,
     if (area < smallest) continue;
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP), stats.at<int>(i, cv::CC_STAT_WIDTH),
                        stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    Part part{padded(box, 2, frame.size()), {}, false};
+    Part part{padded(box, 6, frame.size()), {}, false};
     part.mask = labels(part.box) == i;
     if (cv::countNonZero(seeds(part.box) & part.mask) < std::max<double>(kFewestSeeds, kSeedShare * area)) continue;
     if (refine(frame, background, d, part) && cv::countNonZero(part.mask) >= 0.6 * smallest) parts.push_back(part);
