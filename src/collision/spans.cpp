@@ -14,8 +14,9 @@ constexpr int kLongest = 900;        // points
 constexpr double kSkip = 12.0;       // σ², of a frame that belongs to no flight
 constexpr double kNew = 24.0;        // σ², of another flight
 constexpr double kSpread = 0.08;     // of the gravity, from flight to flight: perspective, drag
-constexpr double kShows = 4.0;       // σ that a flight's sagitta must reach with a gravity,
-constexpr double kShowsClearly = 8.0;  // to take a gravity from it
+constexpr double kShows = 5.0;       // σ of its curvature that a gravity must be to be seen in a flight, and
+constexpr double kShown = 0.6;       // of the gravity that must be seen
+constexpr double kShowsClearly = 8.0;  // σ, sagitta of a flight to take a gravity from
 constexpr double kSignificant = 8.0;  // σ of the curvature
 constexpr double kAgrees = 0.12;     // of the gravity
 constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
@@ -30,6 +31,13 @@ double sagitta(double curvature, double duration) { return 0.125 * curvature * d
 double variance_of(const Curve& curve, double begin, double end, double noise) {
   const double length = 0.5 * (curve.velocity_at(begin).norm() + curve.velocity_at(end).norm()) * (end - begin);
   return noise * noise + kModel * kModel * length * length;
+}
+
+/// True if a flight under that gravity is told from a straight line, as something held, rolling or at rest moves.
+bool shows(const Curve& free, const Vec2& gravity, double noise) {
+  const double g = gravity.norm();
+  if (g == 0.0) return true;
+  return g > kShows * noise * std::sqrt(free.cofactor(2, 2)) && free.curvature.dot(gravity) > kShown * g * g;
 }
 
 Curve fit_of(const std::vector<Candidate>& track, int begin, int end) {
@@ -58,8 +66,7 @@ std::vector<Stretch> split_into_flights(const std::vector<Candidate>& track, dou
     for (int end = begin + 1; end <= std::min(count, begin + kLongest); ++end) {
       sums.add(track[end - 1].u, track[end - 1].pixel);
       if (end - begin < kFewest) continue;
-      const double duration = track[end - 1].u - track[begin].u;
-      if (gravity && expected.norm() > 0.0 && sagitta(expected.norm(), duration) < kShows * noise) continue;
+      if (gravity && !shows(sums.fit(), expected, noise)) continue;
       const Curve curve = sums.fit(expected, weight);
       const double total = cost[begin] + kNew + curve.squares / variance_of(curve, track[begin].u, track[end - 1].u, noise);
       if (total - cost[begin] > kNew + kSkip * (end - begin)) {
