@@ -21,7 +21,7 @@ constexpr double kSignificant = 8.0;  // σ of the curvature
 constexpr double kAgrees = 0.12;     // of the gravity
 constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
 constexpr int kForeseeing = 7;       // points next to it that foresee it
-constexpr int kTrimmed = 6;          // points that may come off an end
+constexpr int kTrimmed = 12;         // points that may come off an end
 constexpr double kWorstFit = 6.0;    // χ² a degree of freedom
 constexpr double kModel = 0.003;     // of a flight's length: what a parabola leaves of drag and perspective
 
