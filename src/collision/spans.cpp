@@ -20,6 +20,7 @@ constexpr double kShowsClearly = 8.0;  // σ, sagitta of a flight to take a grav
 constexpr double kSignificant = 8.0;  // σ of the curvature
 constexpr double kAgrees = 0.12;     // of the gravity
 constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
+constexpr double kOddSize = 0.15;    // off the flight's typical diameter: an impact's blur, a shadow, a part
 constexpr int kForeseeing = 7;       // points next to it that foresee it
 constexpr int kTrimmed = 12;         // points that may come off an end
 constexpr double kWorstFit = 6.0;    // χ² a degree of freedom
@@ -123,9 +124,14 @@ void trim(const std::vector<Candidate>& track, double noise, Stretch& flight) {
     return (c.pixel - rest.at(c.u)).norm() / (sigma * std::sqrt(2.0 * (1.0 + rest.variance_at(c.u))));
   };
   int begin = flight.begin, end = flight.end;
-  for (int i = flight.begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
-    if (surprise(i + 1, std::min(flight.end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
-  for (int i = flight.end - 1; i >= flight.end - reach; --i)
+  const double typical = typical_diameter({track.begin() + begin, track.begin() + end});
+  const auto odd = [&](const Candidate& c) { return c.diameter > 0.0 && std::abs(c.diameter - typical) > kOddSize * typical; };
+  while (end - begin > kFewest && odd(track[begin]) && !odd(track[begin + 1])) ++begin;
+  while (end - begin > kFewest && odd(track[end - 1]) && !odd(track[end - 2])) --end;
+  for (int i = begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
+    if (surprise(i + 1, std::min(end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
+  const int last = end;
+  for (int i = last - 1; i >= last - reach; --i)
     if (surprise(std::max(begin, i - kForeseeing), i, track[i]) > kForeseen && i - begin >= kFewest) end = i;
   if (end - begin >= kFewest) {
     flight.begin = begin;
