@@ -22,6 +22,7 @@ constexpr double kLargestBend = 0.35;   // of the seed's length: more is no flig
 constexpr double kShared = 0.35;        // of its points that an arc may share with longer ones
 constexpr double kStep = 0.25;          // of the picture's span that something may move a frame
 
+constexpr double kWander = 0.025;       // diameters
 constexpr std::size_t kMostFollowed = 8;  // candidates a frame that the noise is taken from
 
 using Key = std::pair<int, int>;        // frame and index of a candidate
@@ -154,6 +155,18 @@ double estimate_noise(const Candidates& candidates, double least) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
   std::nth_element(values.begin(), at, values.end());
   return std::max(least, *at / 0.536);  // first quartile of a Rayleigh distribution, over √2
+}
+
+double silhouette_noise(const Shot& shot, const Candidates& candidates, double noise, Context& context) {
+  const bool silhouettes = std::any_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& b) {
+    return b.shape == Shape::mesh || b.shape == Shape::box || b.shape == Shape::size;
+  });
+  if (!silhouettes) return noise;
+  std::vector<Candidate> flown;
+  for (const Arc& arc : find_arcs(candidates, 2.0 * noise, context))
+    for (const Candidate& c : arc.points)
+      if (c.region >= 0) flown.push_back(c);
+  return std::max(noise, kWander * typical_diameter(flown));
 }
 
 std::vector<Arc> find_arcs(const Candidates& candidates, double noise, Context& context) {

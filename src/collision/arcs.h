@@ -21,6 +21,9 @@ struct Arc {
 /// Centroid noise in pixels, from third differences of the best continued sequences; at least `least`.
 double estimate_noise(const Candidates& candidates, double least);
 
+/// The same, with what silhouettes of anything but spheres add: their centroids wander about the projected centre of mass as they turn.
+double silhouette_noise(const Shot& shot, const Candidates& candidates, double noise, Context& context);
+
 /// All stretches of flight, longest first, each candidate in at most one or (at the ends) two. Seeds are triples of candidates at
 /// equal steps; they grow frame by frame while the next one lies where it should and looks alike (thesis Section 5.3.2 draws them at
 /// random).

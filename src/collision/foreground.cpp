@@ -15,6 +15,7 @@ constexpr double kSeedShare = 0.04;            // of a part's pixels, and
 constexpr int kFewestSeeds = 5;                // pixels above the high threshold
 constexpr double kSmallest = 20.0;             // px
 constexpr double kSmallestShare = 1e-5;        // of the picture
+constexpr double kLargestShare = 0.3;           // of the picture that a part's box may fill to be looked at more closely
 constexpr double kShadowLeast = 0.25, kShadowMost = 0.97;  // of the background's light
 constexpr double kShadowSigmas = 3.0, kShadowGray = 7.0;   // off the background's colour
 constexpr double kWeak = 0.5;                  // of a part's contrast: what is weaker is a shadow already if
@@ -165,9 +166,13 @@ std::vector<Part> find_parts(const cv::Mat& frame, const Background& background,
     if (area < smallest) continue;
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP), stats.at<int>(i, cv::CC_STAT_WIDTH),
                        stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    Part part{padded(box, 2, frame.size()), {}, false};
+    Part part{padded(box, 6, frame.size()), {}, false};
     part.mask = labels(part.box) == i;
     if (cv::countNonZero(seeds(part.box) & part.mask) < std::max<double>(kFewestSeeds, kSeedShare * area)) continue;
+    if (box.area() > kLargestShare * static_cast<double>(frame.total())) {  // no body: a person, or another light
+      parts.push_back(part);
+      continue;
+    }
     if (refine(frame, background, d, part) && cv::countNonZero(part.mask) >= 0.6 * smallest) parts.push_back(part);
   }
   return parts;

@@ -115,14 +115,17 @@ cv::Mat in_working_pixels(const cv::Mat& shift, const Survey& survey) {
 
 /// The background as `frame` would see it: moved back by the camera's motion, with the frame's brightness.
 Background seen_by(const cv::Mat& frame, const Background& background, const cv::Mat& shift, const Survey& survey) {
-  Background seen = background;
-  if (!shift.empty()) {
+  Background seen;
+  if (shift.empty()) {
+    seen = background;
+  } else {
     const cv::Mat m = in_working_pixels(shift, survey);
     cv::warpAffine(background.picture, seen.picture, m, frame.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
     cv::warpAffine(background.noise, seen.noise, m, frame.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_CONSTANT, cv::Scalar(80));
   }
-  const cv::Scalar gain = gain_of(frame, seen.picture);
-  cv::multiply(seen.picture, gain, seen.picture);
+  cv::Mat brightened;  // not in place: the picture may be the background's own
+  cv::multiply(seen.picture, gain_of(frame, seen.picture), brightened);
+  seen.picture = brightened;
   return seen;
 }
 

@@ -14,13 +14,15 @@ constexpr int kLongest = 900;        // points
 constexpr double kSkip = 12.0;       // σ², of a frame that belongs to no flight
 constexpr double kNew = 24.0;        // σ², of another flight
 constexpr double kSpread = 0.08;     // of the gravity, from flight to flight: perspective, drag
-constexpr double kShows = 4.0;       // σ that a flight's sagitta must reach with a gravity,
-constexpr double kShowsClearly = 8.0;  // to take a gravity from it
+constexpr double kShows = 5.0;       // σ of its curvature that a gravity must be to be seen in a flight, and
+constexpr double kShown = 0.6;       // of the gravity that must be seen
+constexpr double kShowsClearly = 8.0;  // σ, sagitta of a flight to take a gravity from
 constexpr double kSignificant = 8.0;  // σ of the curvature
 constexpr double kAgrees = 0.12;     // of the gravity
 constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
+constexpr double kOddSize = 0.15;    // off the flight's typical diameter: an impact's blur, a shadow, a part
 constexpr int kForeseeing = 7;       // points next to it that foresee it
-constexpr int kTrimmed = 6;          // points that may come off an end
+constexpr int kTrimmed = 12;         // points that may come off an end
 constexpr double kWorstFit = 6.0;    // χ² a degree of freedom
 constexpr double kModel = 0.003;     // of a flight's length: what a parabola leaves of drag and perspective
 
@@ -30,6 +32,13 @@ double sagitta(double curvature, double duration) { return 0.125 * curvature * d
 double variance_of(const Curve& curve, double begin, double end, double noise) {
   const double length = 0.5 * (curve.velocity_at(begin).norm() + curve.velocity_at(end).norm()) * (end - begin);
   return noise * noise + kModel * kModel * length * length;
+}
+
+/// True if a flight under that gravity is told from a straight line, as something held, rolling or at rest moves.
+bool shows(const Curve& free, const Vec2& gravity, double noise) {
+  const double g = gravity.norm();
+  if (g == 0.0) return true;
+  return g > kShows * noise * std::sqrt(free.cofactor(2, 2)) && free.curvature.dot(gravity) > kShown * g * g;
 }
 
 Curve fit_of(const std::vector<Candidate>& track, int begin, int end) {
@@ -58,8 +67,7 @@ std::vector<Stretch> split_into_flights(const std::vector<Candidate>& track, dou
     for (int end = begin + 1; end <= std::min(count, begin + kLongest); ++end) {
       sums.add(track[end - 1].u, track[end - 1].pixel);
       if (end - begin < kFewest) continue;
-      const double duration = track[end - 1].u - track[begin].u;
-      if (gravity && expected.norm() > 0.0 && sagitta(expected.norm(), duration) < kShows * noise) continue;
+      if (gravity && !shows(sums.fit(), expected, noise)) continue;
       const Curve curve = sums.fit(expected, weight);
       const double total = cost[begin] + kNew + curve.squares / variance_of(curve, track[begin].u, track[end - 1].u, noise);
       if (total - cost[begin] > kNew + kSkip * (end - begin)) {
@@ -116,9 +124,14 @@ void trim(const std::vector<Candidate>& track, double noise, Stretch& flight) {
     return (c.pixel - rest.at(c.u)).norm() / (sigma * std::sqrt(2.0 * (1.0 + rest.variance_at(c.u))));
   };
   int begin = flight.begin, end = flight.end;
-  for (int i = flight.begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
-    if (surprise(i + 1, std::min(flight.end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
-  for (int i = flight.end - 1; i >= flight.end - reach; --i)
+  const double typical = typical_diameter({track.begin() + begin, track.begin() + end});
+  const auto odd = [&](const Candidate& c) { return c.diameter > 0.0 && std::abs(c.diameter - typical) > kOddSize * typical; };
+  while (end - begin > kFewest && odd(track[begin]) && !odd(track[begin + 1])) ++begin;
+  while (end - begin > kFewest && odd(track[end - 1]) && !odd(track[end - 2])) --end;
+  for (int i = begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
+    if (surprise(i + 1, std::min(end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
+  const int last = end;
+  for (int i = last - 1; i >= last - reach; --i)
     if (surprise(std::max(begin, i - kForeseeing), i, track[i]) > kForeseen && i - begin >= kFewest) end = i;
   if (end - begin >= kFewest) {
     flight.begin = begin;

@@ -16,7 +16,7 @@ constexpr double kLongestGap = 0.2;    // s between two flights of one body, and
 constexpr double kLongestFrames = 6.5;  // frame times at least
 constexpr double kSameTime = 2.5;      // frame times between the two bodies' joints, beside what their spread explains
 constexpr double kTouch = 0.85;        // of the sum of the diameters that the centres may be apart at the impact
-constexpr double kAlike = 9.0;         // σ² between the looks before and after
+constexpr double kUnlike = 15.9;       // σ² between the looks before and after: bodies turn, and show other sides
 constexpr double kOpposed = -0.5;      // cosine between the two changes of velocity: momentum goes from one to the other
 constexpr double kOneCollision = 4.0;  // frame times between two collisions
 constexpr std::size_t kMostArcs = 60;
@@ -28,7 +28,8 @@ constexpr double kNearImpact = 0.75;   // frame times around the impact whose po
 struct Link {
   std::size_t before, after;
   Joint joint;
-  double diameter;
+  double diameter = 0;
+  double unlike = 0;  ///< σ², before and after
 };
 
 struct Collision {
@@ -53,10 +54,10 @@ std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double fp
   for (std::size_t i = 0; i < arcs.size(); ++i)
     for (std::size_t j = 0; j < arcs.size(); ++j) {
       if (i == j || arcs[j].begin() - arcs[i].end() > gap || arcs[j].begin() < arcs[i].begin() + 2.0 || arcs[j].end() < arcs[i].end() + 2.0) continue;
-      if (arcs[i].end() - arcs[j].begin() > 4.0 || unlikeness(looks[i], looks[j]) > kAlike) continue;
+      if (arcs[i].end() - arcs[j].begin() > 4.0 || unlikeness(looks[i], looks[j]) > kUnlike) continue;
       const double diameter = std::max(looks[i].diameter, looks[j].diameter);
       const Joint joint = join(arcs[i].curve, arcs[i].end(), arcs[j].curve, arcs[j].begin(), noise, diameter);
-      if (joint.apart < joint.tolerance && joint.sudden) links.push_back({i, j, joint, diameter});
+      if (joint.apart < joint.tolerance && joint.sudden) links.push_back({i, j, joint, diameter, unlikeness(looks[i], looks[j])});
     }
   return links;
 }
@@ -82,7 +83,7 @@ std::vector<Collision> collisions_of(const std::vector<Arc>& arcs, const std::ve
       if (reach > 0.0 && (pa - pb).norm() > kTouch * (a.diameter + b.diameter) + 4.0 * noise) continue;
       const double opposed = a.joint.change.dot(b.joint.change) / (a.joint.change.norm() * b.joint.change.norm());
       if (opposed > kOpposed) continue;
-      double score = -20.0 * opposed - (a.joint.apart + b.joint.apart) / noise - 4.0 * std::abs(a.joint.u - b.joint.u);
+      double score = -20.0 * opposed - (a.joint.apart + b.joint.apart) / noise - 4.0 * std::abs(a.joint.u - b.joint.u) - a.unlike - b.unlike;
       for (const std::size_t k : {a.before, a.after, b.before, b.after}) score += std::min<double>(30.0, static_cast<double>(arcs[k].points.size()));
       found.push_back({a, b, u, score});
     }
@@ -203,7 +204,7 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
 }  // namespace
 
 Tracks find_pair(const Shot& shot, const Candidates& candidates, double fps, double least_noise, Context& context) {
-  const double noise = estimate_noise(candidates, least_noise);
+  const double noise = silhouette_noise(shot, candidates, estimate_noise(candidates, least_noise), context);
   std::vector<Arc> arcs = find_arcs(candidates, noise, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
   const std::vector<Collision> found = collisions_of(arcs, links_of(arcs, noise, fps), noise);

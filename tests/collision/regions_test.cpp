@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/regions.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "collision/hygiene.h"
+#include "little_videos.h"
+#include "unseen/core/error.h"
+
+namespace unseen::collision::test {
+namespace {
+
+const cv::Scalar kRed(40, 40, 210);
+
+Shot shot_of(const std::string& path) {
+  Shot shot;
+  shot.name = shot.video = path;
+  return shot;
+}
+
+/// Where the disc of most tests is.
+Vec2 thrown(int k) { return {30.0 + 6.3 * k, 190.0 - 12.0 * k + 0.3 * k * k}; }
+
+/// Largest distance of the region nearest to each true centre, over the frames in [first, last].
+double worst_error(const Footage& footage, int first, int last, const std::function<Vec2(int)>& truth) {
+  double worst = 0.0;
+  for (int k = first; k <= last; ++k) {
+    double nearest = 1e9;
+    for (const Region& r : footage.regions[k]) nearest = std::min(nearest, (r.centroid - truth(k)).norm());
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+bool warned(Context& context, const std::string& word) {
+  for (const std::string& w : context.take_warnings())
+    if (w.find(word) != std::string::npos) return true;
+  return false;
+}
+
+TEST(Regions, CentroidAndDiameterOfAMovingDisc) {
+  const Scratch scratch("disc");
+  const std::string path = scratch.file("disc.avi");
+  Random random(1);
+  const cv::Mat background = wall();
+  write_video(path, 40, [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, thrown(k), 12.0, kRed);
+    add_noise(frame, 3.0, random);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  ASSERT_EQ(footage.regions.size(), 40u);
+  EXPECT_EQ(footage.width, kWidth);
+  EXPECT_NEAR(footage.fps, 50.0, 1e-9);
+  EXPECT_NEAR(footage.times[10], 0.2, 1e-9);
+  EXPECT_LT(worst_error(footage, 1, 39, thrown), 0.3);
+  for (int k = 1; k < 40; ++k) {
+    ASSERT_EQ(footage.regions[k].size(), 1u) << k;
+    const Region& r = footage.regions[k][0];
+    EXPECT_NEAR(r.diameter, 24.5, 1.3) << k;
+    EXPECT_NEAR(r.circle, 25.0, 3.0) << k;
+    EXPECT_GT(r.color.x(), 1.5 * r.color.z()) << k;
+    EXPECT_EQ(r.mask.size(), r.box.size());
+    EXPECT_NEAR(cv::countNonZero(r.mask), r.area, 1e-9);
+  }
+  EXPECT_TRUE(context.take_warnings().empty());
+  EXPECT_TRUE(footage.shift.empty());
+  EXPECT_FALSE(footage.moving_camera);
+}
+
+TEST(Regions, BlurLeavesCentroidAndWidthAlone) {
+  const Scratch scratch("blur");
+  const std::string path = scratch.file("blur.avi");
+  const cv::Mat background = wall();
+  const auto place = [](int k) { return Vec2(40.0 + 11.0 * k, 120.0 + 4.0 * k); };
+  write_video(path, 20, [&](int k) {
+    cv::Mat sum = cv::Mat::zeros(background.size(), CV_32FC3);
+    for (int i = 0; i < 16; ++i) {  // half of a frame's time
+      cv::Mat frame = background.clone();
+      draw_disc(frame, place(k) + ((i + 0.5) / 16.0 - 0.5) * 0.5 * Vec2(11.0, 4.0), 12.0, kRed);
+      cv::accumulate(frame, sum);
+    }
+    sum.convertTo(sum, CV_8UC3, 1.0 / 16.0);
+    return sum;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  EXPECT_LT(worst_error(footage, 1, 18, place), 0.5);
+  for (int k = 1; k < 19; ++k) EXPECT_NEAR(footage.regions[k][0].diameter, 24.5, 2.0) << k;
+}
+
+TEST(Regions, FlickerAndBlackFramesAreNoMovers) {
+  const Scratch scratch("flicker");
+  const std::string path = scratch.file("flicker.avi");
+  const cv::Mat background = wall();
+  write_video(path, 30, [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, thrown(k), 12.0, kRed);
+    return cv::Mat(frame * (k == 11 ? 0.02 : 0.85 + 0.15 * std::sin(2.1 * k)));
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  EXPECT_TRUE(footage.regions[11].empty());
+  for (int k = 1; k < 30; ++k) {
+    if (k != 11) { EXPECT_EQ(footage.regions[k].size(), 1u) << k; }
+  }
+  EXPECT_LT(worst_error(footage, 1, 10, thrown), 0.5);
+}
+
+TEST(Regions, UnsteadyHandIsUndone) {
+  const Scratch scratch("hand");
+  const std::string path = scratch.file("hand.avi");
+  const cv::Mat background = wall(12);
+  const auto sway = [](int k) { return Vec2(4.0 * std::sin(0.35 * k), 3.0 * std::cos(0.23 * k) - 3.0); };
+  write_video(path, 40, [&](int k) {
+    cv::Mat m = (cv::Mat_<double>(2, 3) << 1, 0, -12 - sway(k).x(), 0, 1, -12 - sway(k).y()), frame;
+    cv::warpAffine(background, frame, m, {kWidth, kHeight}, cv::INTER_LINEAR);
+    draw_disc(frame, thrown(k) - sway(k), 12.0, kRed);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  ASSERT_EQ(footage.shift.size(), 40u);
+  EXPECT_FALSE(footage.moving_camera);
+  EXPECT_LT(worst_error(footage, 1, 36, [&](int k) { return Vec2(thrown(k) - sway(k)); }), 0.5);
+  for (int k = 0; k < 40; ++k) {
+    EXPECT_NEAR(footage.shift[k].at<double>(0, 2), sway(k).x() - sway(0).x(), 0.5) << k;
+    EXPECT_NEAR(footage.shift[k].at<double>(1, 2), sway(k).y() - sway(0).y(), 0.5) << k;
+  }
+}
+
+TEST(Regions, APanIsNoticed) {
+  const Scratch scratch("pan");
+  const std::string path = scratch.file("pan.avi");
+  const cv::Mat background = wall(60);
+  write_video(path, 30, [&](int k) { return background(cv::Rect(4 * k, 60, kWidth, kHeight)).clone(); });
+  Context context;
+  EXPECT_TRUE(find_regions(shot_of(path), context).moving_camera);
+  EXPECT_TRUE(warned(context, "camera moves"));
+}
+
+TEST(Regions, DoubledFramesAreMarked) {
+  const Scratch scratch("doubled");
+  const std::string path = scratch.file("doubled.avi");
+  Random random(2);
+  const cv::Mat background = wall();
+  cv::Mat last;
+  write_video(path, 30, [&](int k) {
+    if (k == 7 || k == 19) return last;
+    last = background.clone();
+    draw_disc(last, thrown(k), 12.0, kRed);
+    add_noise(last, 2.0, random);
+    return last;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  for (int k = 0; k < 30; ++k) EXPECT_EQ(footage.doubled[k] != 0, k == 7 || k == 19) << k;
+  EXPECT_TRUE(warned(context, "repeat"));
+}
+
+TEST(Regions, WhatRestsMostOfTheTimeIsNoBackground) {
+  const Scratch scratch("rest");
+  const std::string path = scratch.file("rest.avi");
+  const cv::Mat background = wall();
+  const auto place = [](int k) { return Vec2(60.0 + 9.0 * std::min(k, 12), 60.0 + std::min(k, 12) * std::min(k, 12) * 0.8); };
+  write_video(path, 40, [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, place(k), 14.0, kRed);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  EXPECT_LT(worst_error(footage, 1, 39, place), 0.6);
+  for (const Region& r : footage.regions[2]) EXPECT_TRUE((r.centroid - place(2)).norm() < 1.0 || r.area < 60.0);  // no ghost of it
+}
+
+TEST(Regions, AShadowIsCutOffOrMarked) {
+  const Scratch scratch("shadow");
+  const std::string path = scratch.file("shadow.avi");
+  const cv::Mat background = wall();
+  const auto draw = [&](int k, const Vec2& off) {
+    cv::Mat frame = background.clone(), light(frame.size(), CV_32FC3, cv::Scalar(1, 1, 1));
+    draw_disc(light, thrown(k) + off, 12.0, cv::Scalar(0.6, 0.6, 0.6));
+    cv::GaussianBlur(light, light, {7, 7}, 2.0);
+    frame.convertTo(frame, CV_32FC3);
+    frame = frame.mul(light);
+    frame.convertTo(frame, CV_8UC3);
+    draw_disc(frame, thrown(k), 12.0, kRed);
+    return frame;
+  };
+  write_video(path, 30, [&](int k) { return draw(k, Vec2(k < 15 ? 9.0 : 40.0, 4.0)); });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  EXPECT_LT(worst_error(footage, 2, 28, thrown), 1.0);
+  int seen = 0;
+  for (int k = 16; k < 29; ++k)
+    for (const Region& r : footage.regions[k])
+      if ((r.centroid - thrown(k)).norm() > 10.0) {
+        ++seen;
+        EXPECT_TRUE(r.shadow) << k;
+      }
+  EXPECT_GT(seen, 5);
+}
+
+TEST(Regions, RoiFramesAndRateOfTheShot) {
+  const Scratch scratch("roi");
+  const std::string path = scratch.file("roi.avi");
+  const cv::Mat background = wall();
+  write_video(path, 30, [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, thrown(k), 12.0, kRed);
+    return frame;
+  });
+  Shot shot = shot_of(path);
+  shot.fps = 200.0;
+  shot.roi = {0, 0, 150, 240};
+  shot.frames = {3, 20};
+  Context context;
+  const Footage footage = find_regions(shot, context);
+  EXPECT_NEAR(footage.times[8], 0.04, 1e-9);
+  EXPECT_EQ(footage.times.size(), 21u);
+  EXPECT_TRUE(footage.regions[1].empty());
+  EXPECT_LT(worst_error(footage, 4, 15, thrown), 0.4);
+  EXPECT_TRUE(footage.regions[20].empty() || footage.regions[20][0].at_border);
+  for (const auto& frame : footage.regions)
+    for (const Region& r : frame) EXPECT_LE(r.box.br().x, 150);
+  shot.roi = {400, 0, 10, 10};
+  EXPECT_THROW(find_regions(shot, context), InputError);
+}
+
+TEST(Regions, BrokenFilesAreNamed) {
+  const Scratch scratch("broken");
+  Context context;
+  const auto field = [&](const std::string& path) -> std::string {
+    try {
+      find_regions(shot_of(path), context);
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.source, path);
+      EXPECT_FALSE(e.expected.empty());
+      return e.field;
+    }
+    return "no error";
+  };
+  EXPECT_EQ(field(scratch.file("none.mp4")), "video");
+  std::ofstream(scratch.file("text.mp4")) << "not a video\n";
+  EXPECT_EQ(field(scratch.file("text.mp4")), "video");
+  std::ofstream(scratch.file("empty.avi"));
+  EXPECT_EQ(field(scratch.file("empty.avi")), "video");
+  write_video(scratch.file("one.avi"), 1, [](int) { return wall(); });
+  EXPECT_EQ(field(scratch.file("one.avi")), "frames");
+}
+
+TEST(Regions, ATruncatedFileGivesAWarning) {
+  const Scratch scratch("cut");
+  const std::string whole = scratch.file("whole.avi"), cut = scratch.file("cut.avi");
+  Random random(3);
+  write_video(whole, 30, [&](int k) {
+    cv::Mat frame = wall();
+    draw_disc(frame, thrown(k), 12.0, kRed);
+    add_noise(frame, 2.0, random);
+    return frame;
+  });
+  std::ifstream in(whole, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  std::ofstream(cut, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size() * 6 / 10));
+  Context context;
+  const Footage footage = find_regions(shot_of(cut), context);
+  EXPECT_LT(footage.times.size(), 22u);
+  EXPECT_GT(footage.times.size(), 12u);
+  EXPECT_TRUE(warned(context, "announced"));
+}
+
+TEST(Hygiene, UnevenStampsAreUsedAndSaid) {
+  Context context;
+  const std::vector<double> even{0.0, 0.04, 0.08, 0.12}, uneven{0.0, 0.04, 0.08, 0.16, 0.2, 0.24}, broken{0.0, 0.04, 0.08, 0.0};
+  EXPECT_NEAR(frame_times(even, 25.0, {}, "v", context)[3], 0.12, 1e-12);
+  EXPECT_NEAR(frame_times(broken, 25.0, {}, "v", context)[3], 0.12, 1e-12);
+  EXPECT_NEAR(frame_times(even, 25.0, 250.0, "v", context)[3], 0.012, 1e-12);
+  EXPECT_FALSE(warned(context, "uneven"));
+  EXPECT_NEAR(frame_times(uneven, 25.0, {}, "v", context)[5], 0.24, 1e-9);
+  EXPECT_TRUE(warned(context, "uneven"));
+}
+
+}  // namespace
+}  // namespace unseen::collision::test
