@@ -43,6 +43,7 @@ struct Problem {
   bool fixed = false;                  ///< the second body never moves
   std::optional<Vec3> fixed_normal;    ///< of the fixed body, towards the first
   std::optional<double> mass_ratio;    ///< known
+  std::optional<double> restitution;   ///< known
   std::array<double, 2> drag = {0, 0};  ///< 1/m
   bool planar = false;                 ///< gravity-free, all in one plane parallel to the image
   std::vector<PointObservation> points;

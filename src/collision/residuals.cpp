@@ -118,13 +118,16 @@ struct EnergyTerm : Base {
   }
 };
 
-/// 0 ≤ c ≤ 1, Eq. 5.21.
+/// 0 ≤ c ≤ 1, Eq. 5.21; or the value that is known.
 struct RestitutionTerm : Base {
   static constexpr int kResiduals = 1;
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
     const T c = restitution<T>(problem, reference, s);
-    r[0] = value_of(c) < 0.0 ? c / kBound : value_of(c) > 1.0 ? (c - 1.0) / kBound : T(0.0);
+    if (problem.restitution)
+      r[0] = (c - *problem.restitution) / (0.1 * kBound);
+    else
+      r[0] = value_of(c) < 0.0 ? c / kBound : value_of(c) > 1.0 ? (c - 1.0) / kBound : T(0.0);
   }
 };
 

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/collision/collision.h"
+
+#include "collision/describe.h"
+#include "collision/remarks.h"
+#include "collision/shot_problem.h"
+#include "collision/solve_impacts.h"
+#include "collision/turning.h"
+#include "unseen/core/error.h"
+
+namespace unseen::collision {
+namespace {
+
+/// What the film, or the sightings in its place, show.
+struct Evidence {
+  Footage footage;
+  ShotCamera camera;
+  Tracks tracks;
+  double fps = 0;
+};
+
+Evidence observe(const Shot& shot, Context& context, Summary& summary) {
+  Evidence evidence;
+  if (shot.video.empty()) {
+    const Stage stage(context, summary, "tracks");
+    if (!shot.fps) throw InputError(shot.name, "fps", "nothing", "the frame rate of the observations");
+    evidence.fps = *shot.fps;
+    evidence.camera = complete_camera(shot, 0, 0);
+    evidence.tracks = find_tracks(shot, evidence.camera, shot.observations, evidence.fps, context);
+    return evidence;
+  }
+  {
+    const Stage stage(context, summary, "regions");
+    evidence.footage = find_regions(shot, context);
+  }
+  const Stage stage(context, summary, "tracks");
+  evidence.fps = evidence.footage.fps;
+  evidence.camera = complete_camera(shot, evidence.footage.width, evidence.footage.height);
+  evidence.tracks = find_tracks(shot, evidence.camera, evidence.footage, context);
+  return evidence;
+}
+
+void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
+  Summary& summary = result.summary;
+  const std::array<Solid, 2> solids = {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)};
+  const Evidence evidence = observe(shot, context, summary);
+  const Tracks& tracks = evidence.tracks;
+  warn_of_footage(evidence.camera, evidence.footage, context);
+  summary.counts = {{"points", tracks.points.size()}, {"flights", tracks.spans.size()}, {"meetings", tracks.meetings.size()}};
+  result.camera = evidence.camera.camera;
+  result.fps = evidence.fps;
+  result.T_world_camera = world_of(shot.down.value_or(Vec3::UnitY()), shot.gravity == 0.0);
+  for (const Body& body : shot.bodies) result.bodies.push_back({body.name, body.shape == Shape::fixed, {}, {}, {}});
+
+  std::vector<SolvedImpact> impacts;
+  {
+    const Stage stage(context, summary, "positions");
+    impacts = solve_positions(shot, options, evidence.camera, solids, tracks, context);
+  }
+  {
+    const Stage stage(context, summary, "orientations");
+    for (SolvedImpact& impact : impacts) solve_turning(shot, options, evidence.camera, evidence.footage, tracks, impact, context);
+  }
+  if (options.shared_restitution) share_restitution(impacts);
+  {
+    const Stage stage(context, summary, "uncertainty");
+    for (SolvedImpact& impact : impacts) {
+      impact.uncertain = uncertainty(impact.solution, options.resamples, options.seed, context);
+      impact.check = check_model(impact.solution, options.held_out, tracks.noise);
+    }
+  }
+  if (impacts.empty()) {
+    summary.status = Status::infeasible;
+    context.warn(tracks.spans.empty() ? "nothing that flies freely was found" : "no collision found: the flights do not meet");
+    return;
+  }
+  result.bodies.clear();
+  describe(shot, tracks, evidence.fps, impacts, result);
+  remark_on(shot, tracks, impacts, result, context);
+  if (!result.restitution) summary.status = Status::infeasible;
+}
+
+}  // namespace
+
+Reconstruction reconstruct(const Shot& shot, const Options& options, Context& context) {
+  Reconstruction result;
+  try {
+    reconstruct_into(shot, options, context, result);
+  } catch (const Cancelled&) {
+    result.summary.status = Status::cancelled;
+  }
+  result.summary.warnings = context.take_warnings();
+  return result;
+}
+
+}  // namespace unseen::collision

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/frame_clock.h"
+#include "collision/restitution.h"
+#include "collision/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kSureEnough = 0.12;  // deviation of the restitution above which no value is called confident
+
+/// One impact's solution in world coordinates.
+struct Teller {
+  const SolvedImpact& impact;
+  const Mat3& to_world;
+
+  const Problem& problem() const { return impact.solution.problem; }
+  const State& state() const { return impact.solution.fit.state; }
+
+  BodyState body_at(int o, bool after, double time) const {
+    const StateT<double> s = values_of(problem(), state());
+    const PointState<double> there = fly<double>({s.p[o], after ? s.v_after[o] : s.v[o]}, s.down * problem().gravity, problem().drag[o], time - s.time);
+    const double mass = o == 0 ? 1.0 : s.mass_ratio;
+    const Quat q = orientation_at(problem(), state(), o, after, time);
+    BodyState body;
+    body.p = to_world * there.p;
+    body.v = to_world * there.v;
+    body.k = to_world * Vec3(mass * (after ? s.h_after[o] : s.h[o]));
+    body.q = (Quat(to_world) * q * problem().solids[o].file_to_principal).normalized();
+    return body;
+  }
+
+  Impact describe(const FrameClock& clock) const {
+    const StateT<double> s = values_of(problem(), state());
+    Impact told;
+    told.frame = clock.frame_at(s.time);
+    told.time = told.frame / clock.fps();
+    told.restitution = impact.uncertain.restitution;
+    told.impulse = to_world * s.impulse;
+    told.contact_point = to_world * (problem().fixed && !impact.solution.fit.touch ? Vec3(s.p[0] - contact_normal<double>(state(), s) * 0.5 * problem().solids[0].mass.extent) : s.x);
+    const Vec3 n = contact_normal<double>(state(), s);
+    told.normal = to_world * n;
+    if (state().normal) {
+      const Vec3 across = s.impulse - n * n.dot(s.impulse);
+      told.friction = across.norm() / std::max(1e-9, n.dot(s.impulse));
+      const auto sliding = [&](bool after) {
+        const Vec3 u = contact_velocity<double>(problem(), s, 0, after) - contact_velocity<double>(problem(), s, 1, after);
+        return Vec3(u - n * n.dot(u));
+      };
+      const Vec3 before = sliding(false);
+      const bool turning_known = problem().turns(0) && (problem().fixed || problem().turns(1));
+      if (turning_known && before.norm() > 0.05) told.tangential_restitution = -sliding(true).dot(before) / before.squaredNorm();
+    }
+    return told;
+  }
+};
+
+std::size_t best_of(const std::vector<SolvedImpact>& impacts) {
+  const auto rank = [](const SolvedImpact& i) { return std::pair(!i.check.fits, i.uncertain.restitution.sd); };
+  return static_cast<std::size_t>(std::min_element(impacts.begin(), impacts.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); }) - impacts.begin());
+}
+
+/// What the data hardly tell, in words.
+std::vector<std::string> observability(const SolvedImpact& impact, const Shot& shot) {
+  std::vector<std::string> remarks;
+  const Problem& problem = impact.solution.problem;
+  const Fit& fit = impact.solution.fit;
+  const auto sd = [&](int unknown) { return fit.covariance.size() ? std::sqrt(std::max(0.0, fit.covariance(unknown, unknown))) : 0.0; };
+  for (int o = 0; o < (problem.fixed ? 1 : 2); ++o) {
+    const std::string& name = shot.bodies[o].name;
+    const double depth = fit.state.p[o].z(), deviation = sd(kP + 3 * o + 2);
+    if (deviation > 0.05 * depth) remarks.push_back(fmt::format("{}: its distance from the camera is known to {:.0f} % only: too little curvature by gravity", name, 100.0 * deviation / depth));
+    const double along = sd(kV + 3 * o + 2), across = std::max(sd(kV + 3 * o), sd(kV + 3 * o + 1));
+    if (along > 0.2 && along > 5.0 * across) remarks.push_back(fmt::format("{}: its speed along the view ray is known to ±{:.1f} m/s only", name, along));
+    if (!problem.solids[o].is_sphere() && !problem.turns(o)) remarks.push_back(fmt::format("{}: how it turns is not known; the impact is taken as one of its centre", name));
+  }
+  if (!fit.state.normal) remarks.push_back("the contact's normal is taken to be the impulse's direction: friction is not told from restitution");
+  return remarks;
+}
+
+void add_frames(const std::vector<Teller>& tellers, const Tracks& tracks, const FrameClock& clock, Reconstruction& result) {
+  const auto time_of = [&](std::size_t i) { return tellers[i].state().time; };
+  for (int frame = clock.first(); frame <= clock.last(); ++frame) {
+    FramePose pose;
+    pose.frame = frame;
+    pose.time = frame / clock.fps();
+    const double time = clock.time_at(frame);
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < tellers.size(); ++i)
+      if (std::abs(time_of(i) - time) < std::abs(time_of(nearest) - time)) nearest = i;
+    const Teller& teller = tellers[nearest];
+    const bool after = time > teller.state().time;
+    for (int o = 0; o < (teller.problem().fixed ? 1 : 2); ++o) {
+      const std::vector<int>& spans = after ? teller.impact.meeting.after : teller.impact.meeting.before;
+      const bool seen = std::any_of(spans.begin(), spans.end(), [&](int s) {
+        const FlightSpan& span = tracks.spans[s];
+        return span.body == o && (after ? tracks.points[span.end - 1].frame >= frame : tracks.points[span.begin].frame <= frame);
+      });
+      if (seen) pose.bodies[o] = teller.body_at(o, after, time);
+    }
+    if (pose.bodies[0] || pose.bodies[1]) result.frames.push_back(pose);
+  }
+}
+
+void add_residuals(const SolvedImpact& impact, Reconstruction& result) {
+  const Problem& problem = impact.solution.problem;
+  const StateT<double> s = values_of(problem, impact.solution.fit.state);
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    const PointObservation& seen = problem.points[i];
+    result.residuals.push_back({seen.frame, seen.body, seen.pixel, problem.camera.project(position_at<double>(problem, s, seen.body, seen.after, seen.time)),
+                                !impact.check.held_out[i]});
+  }
+}
+
+}  // namespace
+
+RigidTransform world_of(const Vec3& down, bool planar) {
+  const Vec3 up = planar ? Vec3(-Vec3::UnitY()) : Vec3(-down.normalized());
+  Vec3 forward = Vec3::UnitZ();
+  if (line_angle(forward, up) < radians(5.0)) forward = -Vec3::UnitY();
+  const Vec3 y = (forward - up * up.dot(forward)).normalized();
+  RigidTransform T;
+  T.rotation.row(0) = y.cross(up).transpose();
+  T.rotation.row(1) = y.transpose();
+  T.rotation.row(2) = up.transpose();
+  return T;
+}
+
+void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vector<SolvedImpact>& impacts, Reconstruction& result) {
+  const std::size_t best = best_of(impacts);
+  const SolvedImpact& first = impacts[best];
+  const Problem& problem = first.solution.problem;
+  const State& state = first.solution.fit.state;
+  result.T_world_camera = world_of(state.down, problem.planar);
+  result.gravity_direction = result.T_world_camera.rotation * state.down;
+  result.camera = problem.camera;
+  result.fps = fps;
+  result.fixed = problem.fixed ? shot.bodies[1].name : "";
+  const FrameClock clock(tracks, fps);
+  std::vector<Teller> tellers;
+  for (const SolvedImpact& impact : impacts) tellers.push_back({impact, result.T_world_camera.rotation});
+
+  std::vector<Estimate> restitutions;
+  double used = 0.0, held_out = 0.0;
+  for (const Teller& teller : tellers) {
+    result.impacts.push_back(teller.describe(clock));
+    if (teller.impact.check.fits) restitutions.push_back(teller.impact.uncertain.restitution);
+    used += std::pow(teller.impact.check.used_rms, 2) / static_cast<double>(tellers.size());
+    held_out += std::pow(teller.impact.check.held_out_rms, 2) / static_cast<double>(tellers.size());
+    add_residuals(teller.impact, result);
+  }
+  result.reprojection_rms = std::sqrt(used);
+  result.held_out_rms = std::sqrt(held_out);
+  result.fits = !restitutions.empty();
+  if (result.fits) {
+    const Estimate c = pooled(restitutions);
+    const bool one_collision = problem.fixed || tracks.collisions_seen <= 1;
+    if (c.sd < kSureEnough && one_collision) result.restitution = c;
+    if (!problem.fixed && one_collision) result.mass_ratio = first.uncertain.mass_ratio;
+  }
+  result.ambiguous = first.solution.others;
+  for (int o = 0; o < 2; ++o) {
+    BodyResult body;
+    body.name = shot.bodies[o].name;
+    body.fixed = o == 1 && problem.fixed;
+    body.inertia = problem.solids[o].mass.inertia;
+    if (!body.fixed) body.before = tellers[best].body_at(o, false, state.time), body.after = tellers[best].body_at(o, true, state.time);
+    result.bodies.push_back(body);
+  }
+  const StateT<double> s = values_of(problem, state);
+  result.energy_before = kinetic_energy<double>(problem, s, false);
+  result.energy_after = kinetic_energy<double>(problem, s, true);
+  for (const auto& [name, size] : first.solution.fit.terms) result.terms.push_back({name, size, 1.0});
+  result.observability = observability(first, shot);
+  if (problem.drag[0] > 0.0) result.drag = problem.drag[0];
+  add_frames(tellers, tracks, clock, result);
+}
+
+}  // namespace unseen::collision

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "collision/model_check.h"
+#include "collision/tracks.h"
+#include "collision/uncertainty.h"
+
+namespace unseen::collision {
+
+/// One impact with all that was found out about it.
+struct SolvedImpact {
+  Tracks::Meeting meeting;
+  Solution solution;
+  Uncertain uncertain;
+  ModelCheck check;
+};
+
+/// Camera to world: z against gravity, y along the camera's forward direction (or the image's up, if that is within 5° of the vertical).
+RigidTransform world_of(const Vec3& down, bool planar);
+
+/// Writes what was solved into the result; `frames` decoded frames take part. The impact that fits best gives the whole shot's values.
+void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vector<SolvedImpact>& impacts, Reconstruction& result);
+
+}  // namespace unseen::collision

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/model_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "collision/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kMostChi2 = 3.0;
+constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
+constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
+constexpr double kTrendSize = 2.0;    // in noise: smaller trends do no harm
+
+std::vector<Vec2> residuals(const Problem& problem, const State& state) {
+  const StateT<double> s = values_of(problem, state);
+  std::vector<Vec2> all;
+  for (const PointObservation& seen : problem.points)
+    all.push_back(seen.pixel - problem.camera.project(position_at<double>(problem, s, seen.body, seen.after, seen.time)));
+  return all;
+}
+
+double rms(const std::vector<Vec2>& off, const std::vector<char>& chosen, bool which) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if ((chosen[i] != 0) == which) sum += off[i].squaredNorm(), ++count;
+  return count ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
+}
+
+/// Flights whose residuals go on alike from frame to frame, and are larger than the noise.
+std::vector<std::string> trends(const Problem& problem, const std::vector<Vec2>& off, double noise) {
+  struct Sums {
+    double square = 0, lag = 0;
+    int count = 0;
+    Vec2 last = Vec2::Zero();
+  };
+  std::map<std::pair<int, bool>, Sums> flights;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    Sums& sums = flights[{problem.points[i].body, problem.points[i].after}];
+    if (sums.count > 0) sums.lag += off[i].dot(sums.last);
+    sums.square += off[i].squaredNorm();
+    sums.last = off[i];
+    ++sums.count;
+  }
+  std::vector<std::string> found;
+  for (const auto& [key, sums] : flights) {
+    if (sums.count < 6) continue;
+    const double size = std::sqrt(sums.square / (2.0 * sums.count)) / noise;
+    if (sums.lag / sums.square > kTrend && size > kTrendSize)
+      found.push_back(fmt::format("body {}'s flight {} the impact is no free flight: residuals of {:.1f} px go on alike from frame to frame", key.first + 1,
+                                  key.second ? "after" : "before", size * noise));
+  }
+  return found;
+}
+
+}  // namespace
+
+ModelCheck check_model(const Solution& solution, int every, double noise) {
+  ModelCheck check;
+  const Problem& problem = solution.problem;
+  check.held_out.assign(problem.points.size(), 0);
+  noise = std::max(noise, kLeastNoise);
+  State state = solution.fit.state;
+  if (every > 1) {
+    Problem rest = problem;
+    rest.points.clear();
+    for (std::size_t i = 0; i < problem.points.size(); ++i) {
+      check.held_out[i] = problem.points[i].frame % every == 0;
+      if (!check.held_out[i]) rest.points.push_back(problem.points[i]);
+    }
+    const Fit fit = settle(rest, state);
+    if (fit.usable) state = fit.state;
+  }
+  const std::vector<Vec2> off = residuals(problem, state);
+  check.used_rms = rms(residuals(problem, solution.fit.state), check.held_out, false);
+  check.held_out_rms = rms(off, check.held_out, true);
+  check.held_out_chi2 = check.held_out_rms * check.held_out_rms / (2.0 * noise * noise);
+  if (check.held_out_chi2 > kMostChi2)
+    check.reasons.push_back(fmt::format("frames that were held out are {:.1f} px off, where the tracks' own noise is {:.1f} px", check.held_out_rms, noise));
+  for (std::string& trend : trends(problem, off, noise)) check.reasons.push_back(std::move(trend));
+  check.fits = check.reasons.empty();
+  return check;
+}
+
+}  // namespace unseen::collision

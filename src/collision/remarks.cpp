@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/remarks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/shot_problem.h"
+#include "collision/solve_impacts.h"
+#include "collision/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kScale = 0.05;       // share by which size and gravity may differ
+constexpr double kOtherScale = 0.15;  // the same for bodies whose projected size depends on how they are turned
+constexpr double kDragCost = 4.5;     // ½ χ² that drag must save to be told of
+
+/// Distance by size over distance by gravity, of one body in one impact; nothing if gravity hardly tells.
+std::optional<double> scale_ratio(const SolvedImpact& impact, int body) {
+  Problem problem = impact.solution.problem;
+  problem.terms.size = false;
+  if (problem.gravity == 0.0) return std::nullopt;
+  Fit fit = settle(problem, impact.solution.fit.state);
+  if (!fit.usable) return std::nullopt;
+  add_covariance(problem, fit);
+  const double depth = fit.state.p[body].z(), deviation = std::sqrt(std::max(0.0, fit.covariance(kP + 3 * body + 2, kP + 3 * body + 2)));
+  if (!(deviation < 0.5 * kScale * depth)) return std::nullopt;
+  std::vector<double> ratios;
+  const StateT<double> s = values_of(problem, fit.state);
+  for (const PointObservation& seen : problem.points)
+    if (seen.body == body && seen.depth > 0.0) ratios.push_back(seen.depth / position_at<double>(problem, s, body, seen.after, seen.time).z());
+  if (ratios.size() < 5) return std::nullopt;
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+  return ratios[ratios.size() / 2];
+}
+
+void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, Context& context) {
+  for (int o = 0; o < 2; ++o) {
+    if (shot.bodies[o].shape == Shape::fixed) continue;
+    std::vector<double> ratios;
+    for (const SolvedImpact& impact : impacts)
+      if (const auto ratio = scale_ratio(impact, o)) ratios.push_back(*ratio);
+    if (ratios.empty()) continue;
+    std::sort(ratios.begin(), ratios.end());
+    const double ratio = ratios[ratios.size() / 2], limit = shot.bodies[o].shape == Shape::sphere ? kScale : kOtherScale;
+    if (std::abs(ratio - 1.0) > limit)
+      context.warn(fmt::format("{}: the distance by its size is {:.2f} times that by gravity: its size is given {:.0f} % too {}, or the frame rate {:.0f} % too {}",
+                               shot.bodies[o].name, ratio, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "large" : "small",
+                               100.0 * std::abs(std::sqrt(ratio) - 1.0), ratio > 1.0 ? "high" : "low"));
+  }
+}
+
+void look_for_drag(const Shot& shot, const std::vector<SolvedImpact>& impacts, Context& context) {
+  if (!impacts.front().solution.problem.fixed || impacts.front().solution.problem.drag[0] > 0.0) return;
+  const double drag = drag_of(shot.bodies[0], impacts.front().solution.problem.solids[0], 0.47);
+  if (drag <= 0.0) return;
+  const double saved = cost_with_drag(impacts, 0.0) - cost_with_drag(impacts, drag);
+  if (saved > kDragCost)
+    context.warn(fmt::format("{}: the air slows it down: with drag the flights fit better (χ² falls by {:.0f}); use --drag on", shot.bodies[0].name, 2.0 * saved));
+}
+
+}  // namespace
+
+void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context) {
+  if (camera.assumed)
+    context.warn(fmt::format("the camera's intrinsics are assumed: focal length {:.0f} px; distances scale with it, the restitution hardly", camera.camera.fx));
+  if (footage.moving_camera) context.warn("the camera moves more than can be undone; film from a tripod");
+}
+
+void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, const Reconstruction& result, Context& context) {
+  compare_scales(shot, impacts, context);
+  look_for_drag(shot, impacts, context);
+  if (tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
+  if (!result.fits)
+    for (const SolvedImpact& impact : impacts)
+      for (const std::string& reason : impact.check.reasons) context.warn("the model does not fit: " + reason);
+  else if (!result.restitution)
+    context.warn("no confident restitution: the flights tell too little of it");
+}
+
+}  // namespace unseen::collision

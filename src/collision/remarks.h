@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "collision/describe.h"
+#include "unseen/core/context.h"
+
+namespace unseen::collision {
+
+/// Warns of a guessed camera and of one that moves.
+void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context);
+
+/// Warns where size and gravity tell of different scales, where the air seems to slow a body down, of several collisions, and says why the
+/// model does not fit.
+void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, const Reconstruction& result, Context& context);
+
+}  // namespace unseen::collision

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "unseen/collision/types.h"
+
+namespace unseen::collision {
+
+/// One value from several estimates of the same thing: weighted by their precision; no surer than they agree.
+Estimate pooled(const std::vector<Estimate>& estimates);
+
+}  // namespace unseen::collision

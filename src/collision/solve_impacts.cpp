@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/solve_impacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/restitution.h"
+#include "collision/shot_problem.h"
+#include "collision/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kFloor = 0.35;     // rad: an impulse that is this near to the vertical comes from a floor
+constexpr double kMostDrag = 1.0;   // 1/m: a table-tennis ball has 0.13
+
+void add_floor(Problem& problem, State& state) {
+  if (!problem.fixed || problem.fixed_normal || problem.gravity == 0.0) return;
+  const Vec3 up = -state.down;
+  if (line_angle(up, state.impulse) > kFloor || state.impulse.dot(up) <= 0.0) return;
+  problem.fixed_normal = up;
+}
+
+void settle_again(SolvedImpact& impact) {
+  const Fit fit = settle(impact.solution.problem, impact.solution.fit.state);
+  if (fit.usable) impact.solution.fit = fit;
+}
+
+/// The drag with the lowest cost, by golden section.
+double best_drag(const std::vector<SolvedImpact>& impacts) {
+  constexpr int kRounds = 20;
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  double low = 0.0, high = kMostDrag;
+  double a = high - ratio * (high - low), b = low + ratio * (high - low), cost_a = cost_with_drag(impacts, a), cost_b = cost_with_drag(impacts, b);
+  for (int i = 0; i < kRounds; ++i) {
+    if (cost_a < cost_b) {
+      high = b, b = a, cost_b = cost_a;
+      cost_a = cost_with_drag(impacts, a = high - ratio * (high - low));
+    } else {
+      low = a, a = b, cost_a = cost_b;
+      cost_b = cost_with_drag(impacts, b = low + ratio * (high - low));
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+double cost_with_drag(const std::vector<SolvedImpact>& impacts, double drag) {
+  double cost = 0.0;
+  for (const SolvedImpact& impact : impacts) {
+    Problem problem = impact.solution.problem;
+    problem.drag[0] = drag;
+    cost += settle(problem, impact.solution.fit.state).cost;
+  }
+  return cost;
+}
+
+std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
+                                          const Tracks& tracks, Context& context) {
+  std::vector<SolvedImpact> impacts;
+  for (const Tracks::Meeting& meeting : tracks.meetings) {
+    SolvedImpact impact;
+    impact.meeting = meeting;
+    impact.solution = best_fit(problem_of(shot, options, camera, solids, tracks, meeting), meeting.time, 1, context);
+    if (!impact.solution.fit.usable) continue;
+    add_floor(impact.solution.problem, impact.solution.fit.state);
+    settle_again(impact);
+    impacts.push_back(std::move(impact));
+    context.progress(static_cast<double>(impacts.size()) / static_cast<double>(tracks.meetings.size()));
+  }
+  if (options.drag == "estimate" && !impacts.empty()) {
+    const double drag = best_drag(impacts);
+    for (SolvedImpact& impact : impacts) {
+      impact.solution.problem.drag[0] = drag;
+      settle_again(impact);
+    }
+  }
+  return impacts;
+}
+
+void share_restitution(std::vector<SolvedImpact>& impacts) {
+  if (impacts.size() < 2) return;
+  std::vector<Estimate> each;
+  for (SolvedImpact& impact : impacts) {
+    add_covariance(impact.solution.problem, impact.solution.fit);
+    each.push_back(restitution_of(impact.solution.problem, impact.solution.fit));
+  }
+  for (SolvedImpact& impact : impacts) {
+    impact.solution.problem.restitution = std::clamp(pooled(each).value, 0.0, 1.0);
+    settle_again(impact);
+  }
+}
+
+}  // namespace unseen::collision

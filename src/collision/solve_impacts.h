@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "collision/describe.h"
+#include "unseen/collision/options.h"
+#include "unseen/core/context.h"
+
+namespace unseen::collision {
+
+/// Solves each meeting of the tracks from its centres alone; meetings that no start leads to are left out. What is fixed and has no normal
+/// counts as a floor if the impulse is nearly vertical. With `drag` = "estimate" all impacts share the drag that explains them best.
+std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
+                                          const Tracks& tracks, Context& context);
+
+/// ½ χ² of all impacts with another drag of the first body (1/m).
+double cost_with_drag(const std::vector<SolvedImpact>& impacts, double drag);
+
+/// Solves the impacts again with one restitution for all.
+void share_restitution(std::vector<SolvedImpact>& impacts);
+
+}  // namespace unseen::collision
