@@ -51,12 +51,14 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   result.camera = evidence.camera.camera;
   result.fps = evidence.fps;
   result.T_world_camera = world_of(shot.down.value_or(Vec3::UnitY()), shot.gravity == 0.0);
+  if (shot.bodies[1].shape == Shape::fixed) result.fixed = shot.bodies[1].name;
   for (const Body& body : shot.bodies) result.bodies.push_back({body.name, body.shape == Shape::fixed, {}, {}, {}});
 
   std::vector<SolvedImpact> impacts;
   {
     const Stage stage(context, summary, "positions");
     impacts = solve_positions(shot, options, evidence.camera, solids, tracks, context);
+    share_gravity(impacts);
   }
   {
     const Stage stage(context, summary, "orientations");

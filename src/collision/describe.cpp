@@ -151,7 +151,8 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
   double used = 0.0, held_out = 0.0;
   for (const Teller& teller : tellers) {
     result.impacts.push_back(teller.describe(clock));
-    if (teller.impact.check.fits) restitutions.push_back(teller.impact.uncertain.restitution);
+    const double c = teller.impact.uncertain.restitution.value;
+    if (teller.impact.check.fits && c > 0.0 && c < 1.0) restitutions.push_back(teller.impact.uncertain.restitution);
     used += std::pow(teller.impact.check.used_rms, 2) / static_cast<double>(tellers.size());
     held_out += std::pow(teller.impact.check.held_out_rms, 2) / static_cast<double>(tellers.size());
     add_residuals(teller.impact, result);

@@ -73,7 +73,7 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
 void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, const Reconstruction& result, Context& context) {
   compare_scales(shot, impacts, context);
   look_for_drag(shot, impacts, context);
-  if (tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
+  if (result.fixed.empty() && tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
   if (!result.fits)
     for (const SolvedImpact& impact : impacts)
       for (const std::string& reason : impact.check.reasons) context.warn("the model does not fit: " + reason);

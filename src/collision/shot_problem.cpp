@@ -12,7 +12,7 @@ namespace {
 constexpr double kAir = 1.2;              // kg/m³
 constexpr double kSphereSize = 0.04;      // share by which all projected sizes of a flight may be off together
 constexpr double kOtherSize = 0.12;       // the same where the projected size depends on the orientation
-constexpr double kDownSigma = 0.05;       // rad
+constexpr double kDownSigma = 0.2;        // rad: hand-held cameras look up or down a little
 constexpr double kDownGivenSigma = 0.01;  // rad, of a direction that the shot gives
 
 void add_points(const Tracks& tracks, int span_index, bool after, const ShotCamera& camera, const std::array<Solid, 2>& solids, Problem& problem) {

@@ -16,7 +16,7 @@ constexpr double kFloor = 0.35;     // rad: an impulse that is this near to the 
 constexpr double kMostDrag = 1.0;   // 1/m: a table-tennis ball has 0.13
 
 void add_floor(Problem& problem, State& state) {
-  if (!problem.fixed || problem.fixed_normal || problem.gravity == 0.0) return;
+  if (!problem.fixed || problem.gravity == 0.0) return;
   const Vec3 up = -state.down;
   if (line_angle(up, state.impulse) > kFloor || state.impulse.dot(up) <= 0.0) return;
   problem.fixed_normal = up;
@@ -65,8 +65,10 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     impact.meeting = meeting;
     impact.solution = best_fit(problem_of(shot, options, camera, solids, tracks, meeting), meeting.time, 1, context);
     if (!impact.solution.fit.usable) continue;
-    add_floor(impact.solution.problem, impact.solution.fit.state);
-    settle_again(impact);
+    if (!impact.solution.problem.fixed_normal) {
+      add_floor(impact.solution.problem, impact.solution.fit.state);
+      settle_again(impact);
+    }
     impacts.push_back(std::move(impact));
     context.progress(static_cast<double>(impacts.size()) / static_cast<double>(tracks.meetings.size()));
   }
@@ -78,6 +80,26 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     }
   }
   return impacts;
+}
+
+void share_gravity(std::vector<SolvedImpact>& impacts) {
+  constexpr double kShared = 0.003;  // rad: to which all impacts of a shot have the same
+  if (impacts.size() < 2) return;
+  // Precision in the plane across the expected direction; each impact's own tilt counts by it.
+  Vec3 sum = Vec3::Zero();
+  for (SolvedImpact& impact : impacts) {
+    add_covariance(impact.solution.problem, impact.solution.fit);
+    const double variance = impact.solution.fit.covariance.block<2, 2>(kDown, kDown).trace();
+    if (variance > 0.0) sum += impact.solution.fit.state.down / variance;
+  }
+  if (sum.norm() == 0.0) return;
+  for (SolvedImpact& impact : impacts) {
+    impact.solution.problem.down = sum.normalized();
+    impact.solution.problem.down_sigma = kShared;
+    impact.solution.fit.state.down = sum.normalized();
+    if (impact.solution.problem.fixed_normal) add_floor(impact.solution.problem, impact.solution.fit.state);
+    settle_again(impact);
+  }
 }
 
 void share_restitution(std::vector<SolvedImpact>& impacts) {

@@ -16,6 +16,9 @@ namespace unseen::collision {
 std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
                                           const Tracks& tracks, Context& context);
 
+/// Solves the impacts again with one direction of gravity, that of all of them weighted by what each tells.
+void share_gravity(std::vector<SolvedImpact>& impacts);
+
 /// ½ χ² of all impacts with another drag of the first body (1/m).
 double cost_with_drag(const std::vector<SolvedImpact>& impacts, double drag);
 
