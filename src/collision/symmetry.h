@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "unseen/collision/types.h"
+
+namespace unseen::collision {
+
+/// Rigid maps of a convex body (corners about its centre of mass) onto itself, within `tolerance` of its reach.
+struct Symmetry {
+  std::vector<Quat> turns;         ///< rotations; the identity first
+  std::vector<Mat3> reflections;   ///< determinant −1
+};
+
+Symmetry symmetry_of(const std::vector<Vec3>& corners, double tolerance = 0.01);
+
+/// The member g of `turns` for which q·g is nearest to `to`, as q·g.
+Quat nearest_alike(const Quat& q, const Quat& to, const std::vector<Quat>& turns);
+
+/// Angle between two orientations of a body with these symmetries, rad.
+double angle_between(const Quat& a, const Quat& b, const std::vector<Quat>& turns);
+
+}  // namespace unseen::collision
