@@ -4,53 +4,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
-#include <cmath>
 
+#include "collision/color_sight.h"
 #include "unseen/collision/body_mesh.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision {
 namespace {
 
-constexpr double kFacing = 0.3;  // cosine between normal and view ray from which a place is seen well
-constexpr double kDark = 12.0;   // grey levels: below, the logarithm is of noise
-constexpr int kLights = 8;
-
-using Color = Eigen::Vector3d;
-using Light = Eigen::Matrix<double, kLights, 1>;
-
-/// Spherical harmonics of first and second order, without their constants.
-Light light_basis(const Vec3& n) {
-  Light b;
-  b << n.x(), n.y(), n.z(), n.x() * n.y(), n.y() * n.z(), n.z() * n.x(), n.x() * n.x() - n.y() * n.y(), 3.0 * n.z() * n.z() - 1.0;
-  return b;
-}
-
-/// Logarithms of the levels, by a table.
-const std::array<double, 256>& log_levels() {
-  static const auto kTable = [] {
-    std::array<double, 256> t;
-    for (int i = 0; i < 256; ++i) t[static_cast<std::size_t>(i)] = std::log(i + kDark);
-    return t;
-  }();
-  return kTable;
-}
-
-/// The picture's colour at a place; false outside.
-bool color_at(const Look& look, const Vec2& pixel, Color& color) {
-  const double x = (pixel.x() - look.pixel.x()) / look.step + 0.5 * (kPictureSize - 1);
-  const double y = (pixel.y() - look.pixel.y()) / look.step + 0.5 * (kPictureSize - 1);
-  if (!(x >= 0.0 && y >= 0.0 && x < kPictureSize - 1 && y < kPictureSize - 1)) return false;
-  const auto u = static_cast<int>(x), v = static_cast<int>(y);
-  const double a = x - u, b = y - v;
-  const auto* top = look.picture.ptr<cv::Vec3b>(v) + u;
-  const auto* low = look.picture.ptr<cv::Vec3b>(v + 1) + u;
-  const auto& table = log_levels();
-  for (int c = 0; c < 3; ++c)
-    color[c] = (table[top[0][c]] * (1 - a) + table[top[1][c]] * a) * (1 - b) + (table[low[0][c]] * (1 - a) + table[low[1][c]] * a) * b;
-  return true;
-}
 
 /// Sums for a least-squares fit of lights to colours about each place's own mean.
 struct Sums {
@@ -120,7 +81,7 @@ double color_variance(const std::vector<SurfacePoint>& points, const Camera& cam
     for (std::size_t i = 0; i < looks.size(); ++i) {
       if (looks[i]->picture.empty()) continue;
       const Vec3 place = turns[i] * p.place + looks[i]->center, normal = turns[i] * p.normal;
-      if (normal.dot(place) > -kFacing * place.norm()) continue;
+      if (!faces_camera(place, normal)) continue;
       Color color;
       if (color_at(*looks[i], camera.project(place), color)) sights.emplace_back(color, light_basis(normal));
     }

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "collision/pose_cost.h"
+#include "collision/spin_search.h"
 
 namespace unseen::collision {
 
@@ -14,6 +14,8 @@ struct SurfacePoint {
   Vec3 normal = Vec3::UnitZ();  ///< unit, outwards
 };
 
+inline constexpr double kColorsPerLook = 8.0;  ///< how many independent colours a look is worth
+
 /// Places spread evenly over the surface. Deterministic.
 std::vector<SurfacePoint> surface_points(const Body& body, const SpinBody& solid, std::size_t count, const std::string& source);
 
@@ -22,5 +24,10 @@ std::vector<SurfacePoint> surface_points(const Body& body, const SpinBody& solid
 /// subspaces", 2003). The right motion has a small one. Zero if no place is seen twice.
 double color_variance(const std::vector<SurfacePoint>& points, const Camera& camera, const std::vector<const Look*>& looks,
                       const std::vector<Quat>& orientations);
+
+/// The minimum nearest to `start` of what silhouettes (over `noise`, squared) and colours cost together: first with blurred pictures,
+/// then with sharp ones. `information` counts both, in units of the silhouettes' noise; `cost` remains that of the silhouettes.
+Turning refined_by_colors(const Turning& start, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks,
+                          const std::vector<SurfacePoint>& points, double noise);
 
 }  // namespace unseen::collision

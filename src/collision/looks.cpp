@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "collision/clip.h"
+#include "collision/views.h"
 
 namespace unseen::collision {
 namespace {
@@ -16,6 +18,8 @@ namespace {
 constexpr double kSpacing = 0.02;    // s: no body turns by more than a third of a turn from look to look
 constexpr std::size_t kLeast = 10, kMost = 28;
 constexpr double kSpur = 0.06;       // of the radius
+constexpr int kViews = 200;
+constexpr double kPart = 0.8, kExcess = 1.35;  // of the least and the largest area that the body can show
 constexpr double kAround = 1.15;     // of the radius: half the picture
 
 bool distorted(const ShotCamera& camera) {
@@ -81,8 +85,26 @@ Vec2 motion_at(const Tracks& tracks, const FlightSpan& span, std::size_t at) {
   return after.frame == before.frame ? Vec2(Vec2::Zero()) : Vec2((after.pixel - before.pixel) / (after.frame - before.frame));
 }
 
-/// Fills in what the body's region says; false if it says nothing.
-bool see(const Region& region, const ShotCamera& camera, const Footage& footage, Look& look) {
+/// Least and largest area of the body's projections, over the square of its reach. Orthographic.
+std::pair<double, double> area_range(const SpinBody& body) {
+  const Camera flat{1, 1, 0, 0, 1, 1};
+  constexpr double kFar = 1e3;
+  double least = std::numeric_limits<double>::infinity(), most = 0.0;
+  for (const Vec3& view : sphere_directions(kViews)) {
+    const Vec3 center(0, 0, kFar * body.solid.mass.reach);
+    const Eigen::Matrix2Xd pixels = kFar * projected(body.corners, Quat::FromTwoVectors(view, Vec3::UnitZ()), center, flat);
+    std::vector<cv::Point2f> points, hull;
+    for (Eigen::Index i = 0; i < pixels.cols(); ++i) points.emplace_back(static_cast<float>(pixels(0, i)), static_cast<float>(pixels(1, i)));
+    cv::convexHull(points, hull);
+    const double area = cv::contourArea(hull);
+    least = std::min(least, area);
+    most = std::max(most, area);
+  }
+  return {least, most};
+}
+
+/// Fills in what the body's region says; false if it says nothing, or shows only a part of the body or more than it.
+bool see(const Region& region, const ShotCamera& camera, const Footage& footage, const std::pair<double, double>& areas, Look& look) {
   std::vector<cv::Point2d> pixels;
   for (const Vec2& p : mask_outline(region.mask, kSpur * look.radius)) pixels.emplace_back(p.x() + region.box.x, p.y() + region.box.y);
   if (pixels.size() < 3) return false;
@@ -90,7 +112,10 @@ bool see(const Region& region, const ShotCamera& camera, const Footage& footage,
   Eigen::Matrix2Xd outline(2, static_cast<Eigen::Index>(pixels.size()));
   for (std::size_t i = 0; i < pixels.size(); ++i) outline.col(static_cast<Eigen::Index>(i)) << pixels[i].x, pixels[i].y;
   look.seen = support_of(outline, look.pixel);
-  return true;
+  std::vector<Vec2> corners;
+  for (const cv::Point2d& p : pixels) corners.push_back({p.x, p.y});
+  const double area = polygon_area(corners) / (look.radius * look.radius);
+  return area > kPart * areas.first && area < kExcess * areas.second;
 }
 
 cv::Mat cut_out(const cv::Mat& frame, const ShotCamera& camera, const Footage& footage, Look& look) {
@@ -120,6 +145,7 @@ cv::Mat cut_out(const cv::Mat& frame, const ShotCamera& camera, const Footage& f
 std::vector<Look> choose_looks(const SpinBody& body, const ShotCamera& camera, const Footage& footage, const Tracks& tracks,
                                const std::vector<Vec3>& centers, const FlightSpan& span) {
   const std::vector<std::size_t> usable = usable_points(footage, tracks, span);
+  const auto areas = area_range(body);
   std::vector<Look> looks;
   if (usable.size() < 2) return looks;
   const double duration = tracks.points[usable.back()].time - tracks.points[usable.front()].time;
@@ -136,7 +162,7 @@ std::vector<Look> choose_looks(const SpinBody& body, const ShotCamera& camera, c
     if (!(look.center.z() > 1.2 * body.solid.mass.reach)) continue;
     look.pixel = camera.camera.project(look.center);
     look.radius = std::sqrt(camera.camera.fx * camera.camera.fy) * body.solid.mass.reach / look.center.z();
-    if (!see(*region_of(point, footage), camera, footage, look)) continue;
+    if (!see(*region_of(point, footage), camera, footage, areas, look)) continue;
     set_whitening(look, motion_at(tracks, span, at));
     looks.push_back(look);
   }

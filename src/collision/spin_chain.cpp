@@ -15,7 +15,6 @@ namespace {
 constexpr double kJoint = 0.12;      // rad, between two motions at the impact
 constexpr double kLate = 1.0;        // frames, of the impact's time
 constexpr double kBroken = 25.0;     // χ² from where on it grows slowly
-constexpr double kColors = 8.0;      // independent colours a look
 constexpr double kNear = 0.7;        // rad: symmetries that are compared by colour
 
 /// What it costs that one motion follows another, with the symmetry that lets it.
@@ -71,7 +70,7 @@ class Joiner {
         result[i][j].cost = std::numeric_limits<double>::infinity();
         for (const Choice& c : choices[i][j]) {
           double cost = kBroken * std::log1p(c.gap * c.gap / kBroken);
-          if (c.variance > 0.0) cost += kColors * std::sqrt(static_cast<double>(looks.size())) * std::log(c.variance / least);
+          if (c.variance > 0.0) cost += kColorsPerLook * std::sqrt(static_cast<double>(looks.size())) * std::log(c.variance / least);
           if (cost < result[i][j].cost) result[i][j] = {cost, c.alike};
         }
       }

@@ -18,7 +18,6 @@ namespace {
 constexpr std::size_t kTurnings = 10;     // followed up a flight
 constexpr std::size_t kPoints = 400;      // of a surface
 constexpr double kIndependent = 10.0;     // directions of a silhouette
-constexpr double kColors = 8.0;           // independent colours a look
 constexpr double kSharpest = 0.03, kVaguest = 0.45;  // rad, of an orientation as an observation
 
 bool has_spin(const Body& body) { return body.shape == Shape::box || body.shape == Shape::mesh; }
@@ -30,12 +29,13 @@ void weigh(SpinFlight& flight, const SpinBody& body, const std::vector<SurfacePo
   flight.noise = std::sqrt(std::max(1.0, flight.turnings.front().cost / freedom));
   std::vector<const Look*> looks;
   for (const Look& look : flight.looks) looks.push_back(&look);
+  for (Turning& t : flight.turnings) t = refined_by_colors(t, body, camera, flight.looks, points, flight.noise);
   std::vector<double> variances;
   for (const Turning& t : flight.turnings) variances.push_back(color_variance(points, camera, looks, orientations_of(t, body, flight.looks)));
   const double least = *std::min_element(variances.begin(), variances.end());
   for (std::size_t i = 0; i < variances.size(); ++i) {
     double cost = flight.turnings[i].cost / (flight.noise * flight.noise);
-    if (least > 0.0) cost += kColors * static_cast<double>(looks.size()) * std::log(variances[i] / least);
+    if (least > 0.0) cost += kColorsPerLook * static_cast<double>(looks.size()) * std::log(variances[i] / least);
     flight.costs.push_back(cost);
   }
 }
