@@ -139,6 +139,7 @@ Turning refined_by_colors(const Turning& start, const SpinBody& body, const Came
   const double worth = kColorsPerLook * static_cast<double>(looks.size());
   const std::vector<Look> soft = blurred(looks);
   Turning best = at_time(start, body, outlines.middle());
+  best.cost = SilhouetteFit::cost(outlines.residuals(best));
   ColorFit coarse(points, camera, soft), fine(points, camera, looks);
   descend(best, outlines, coarse, worth, noise);
   descend(best, outlines, fine, worth, noise);

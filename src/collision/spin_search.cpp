@@ -20,7 +20,8 @@ constexpr double kAlike = 0.12;          // rad, at both ends of the flight
 
 bool better(const Turning& a, const Turning& b) { return a.cost < b.cost; }
 
-/// Sorts, and keeps the best of those that are alike between two times, at most `count`.
+}  // namespace
+
 void keep_best(std::vector<Turning>& all, const SpinBody& body, double from, double to, std::size_t count) {
   const double slack = 2.0 * kAlike * body.solid.mass.inertia.maxCoeff() / std::max(to - from, 1e-3);
   std::stable_sort(all.begin(), all.end(), better);
@@ -39,6 +40,8 @@ void keep_best(std::vector<Turning>& all, const SpinBody& body, double from, dou
   }
   all = std::move(kept);
 }
+
+namespace {
 
 /// Motions that join a pose of one look with one of the next, the short way or once around the long way.
 std::vector<Turning> pairs(const SpinBody& body, const std::vector<Look>& looks, std::size_t at, const std::vector<PoseCandidate>& first,

@@ -13,7 +13,7 @@ struct Turning {
   double time = 0;  ///< s
   Quat q = Quat::Identity();
   Vec3 h = Vec3::Zero();
-  double cost = 0;  ///< of the silhouettes, robust χ²
+  double cost = 0;  ///< robust χ²: of the silhouettes, in the end also of the colours
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  ///< of the turn of q (rad) and of h, camera axes
 };
 
@@ -26,6 +26,9 @@ Turning at_time(const Turning& turning, const SpinBody& body, double time);
 /// Lowest minima of the silhouettes' cost summed over all looks, best first, at most `count`; those that differ by a symmetry of the body
 /// once, mirrored ones (the reversal in depth that silhouettes hardly tell) apart.
 std::vector<Turning> find_turnings(const SpinBody& body, const Camera& camera, const std::vector<Look>& looks, std::size_t count);
+
+/// Sorts by cost, and keeps the best of those that are alike between two times but for the body's symmetries, at most `count`.
+void keep_best(std::vector<Turning>& all, const SpinBody& body, double from, double to, std::size_t count);
 
 /// Robust χ² of the silhouettes of looks [begin, end).
 double silhouette_cost(const Turning& turning, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks, std::size_t begin,

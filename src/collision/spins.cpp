@@ -16,28 +16,38 @@ namespace unseen::collision {
 namespace {
 
 constexpr std::size_t kTurnings = 10;     // followed up a flight
+constexpr std::size_t kRefined = 6;       // of those, by colours too
 constexpr std::size_t kPoints = 400;      // of a surface
 constexpr double kIndependent = 10.0;     // directions of a silhouette
-constexpr double kSharpest = 0.03, kVaguest = 0.45;  // rad, of an orientation as an observation
+constexpr double kModel = 0.018;          // rad: what outlines that are cut wrongly do to a whole motion
+constexpr double kVaguest = 0.5;          // rad, of an orientation as an observation
 
 bool has_spin(const Body& body) { return body.shape == Shape::box || body.shape == Shape::mesh; }
 
 /// χ² of a flight's motions: silhouettes over the noise that the best one leaves, and colours.
-void weigh(SpinFlight& flight, const SpinBody& body, const std::vector<SurfacePoint>& points, const Camera& camera) {
-  if (flight.turnings.empty()) return;
-  const double freedom = std::max(1.0, kIndependent * static_cast<double>(flight.looks.size()) - 6.0);
-  flight.noise = std::sqrt(std::max(1.0, flight.turnings.front().cost / freedom));
+void add_colors(SpinFlight& flight, const SpinBody& body, const std::vector<SurfacePoint>& points, const Camera& camera) {
   std::vector<const Look*> looks;
   for (const Look& look : flight.looks) looks.push_back(&look);
-  for (Turning& t : flight.turnings) t = refined_by_colors(t, body, camera, flight.looks, points, flight.noise);
   std::vector<double> variances;
   for (const Turning& t : flight.turnings) variances.push_back(color_variance(points, camera, looks, orientations_of(t, body, flight.looks)));
   const double least = *std::min_element(variances.begin(), variances.end());
   for (std::size_t i = 0; i < variances.size(); ++i) {
-    double cost = flight.turnings[i].cost / (flight.noise * flight.noise);
-    if (least > 0.0) cost += kColorsPerLook * static_cast<double>(looks.size()) * std::log(variances[i] / least);
-    flight.costs.push_back(cost);
+    flight.turnings[i].cost /= flight.noise * flight.noise;
+    if (least > 0.0) flight.turnings[i].cost += kColorsPerLook * static_cast<double>(looks.size()) * std::log(variances[i] / least);
   }
+  keep_best(flight.turnings, body, flight.looks.front().time, flight.looks.back().time, kRefined);
+}
+
+/// The motions of one flight by themselves.
+void search(SpinFlight& flight, const SpinBody& body, const std::vector<SurfacePoint>& points, const Camera& camera) {
+  flight.turnings = find_turnings(body, camera, flight.looks, kTurnings);
+  if (flight.turnings.empty()) return;
+  const double freedom = std::max(1.0, kIndependent * static_cast<double>(flight.looks.size()) - 6.0);
+  flight.noise = std::sqrt(std::max(1.0, flight.turnings.front().cost / freedom));
+  add_colors(flight, body, points, camera);
+  for (Turning& t : flight.turnings) t = refined_by_colors(t, body, camera, flight.looks, points, flight.noise);
+  add_colors(flight, body, points, camera);
+  for (const Turning& t : flight.turnings) flight.costs.push_back(t.cost);
 }
 
 /// Standard deviation of the motion's orientation at a time, rad.
@@ -75,8 +85,8 @@ Spin spin_of(const SpinFlight& flight, std::size_t index, const SpinBody& body, 
   // the orientations come from one motion of six numbers: together they are to weigh as much as those
   const double shared = std::sqrt(0.5 * static_cast<double>(all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double time = flight.looks[i].time, sigma = shared * uncertainty(turning, body, flight.noise, time);
-    spin.orientations.push_back({body_index, time, all[i] * to_principal, std::clamp(sigma, kSharpest, kVaguest)});
+    const double time = flight.looks[i].time, sigma = shared * std::hypot(kModel, uncertainty(turning, body, flight.noise, time));
+    spin.orientations.push_back({body_index, time, all[i] * to_principal, std::min(sigma, kVaguest)});
   }
   return spin;
 }
@@ -116,8 +126,7 @@ std::vector<std::vector<Spin>> find_spins(const Shot& shot, const ShotCamera& ca
   parallel_blocks(context, flights.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto b = static_cast<std::size_t>(tracks.spans[static_cast<std::size_t>(flights[i].span)].body);
-      flights[i].turnings = find_turnings(bodies[b], camera.camera, flights[i].looks, kTurnings);
-      weigh(flights[i], bodies[b], points[b], camera.camera);
+      search(flights[i], bodies[b], points[b], camera.camera);
     }
   });
   context.check();

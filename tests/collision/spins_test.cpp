@@ -97,7 +97,7 @@ SynthOptions small(const std::string& scene, int seed) {
 class Spins : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    filmed_ = new Filmed(film(small("boxes", 2), "spins_test.mp4"));
+    filmed_ = new Filmed(film(small("boxes", 3), "spins_test.mp4"));
     Context context;
     spins_ = new std::vector<std::vector<Spin>>(find_spins(filmed_->scene.shot, filmed_->camera, filmed_->footage, filmed_->tracks, filmed_->centers, 6, context));
   }
