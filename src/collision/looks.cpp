@@ -94,7 +94,7 @@ std::pair<double, double> area_range(const SpinBody& body) {
     const Vec3 center(0, 0, kFar * body.solid.mass.reach);
     const Eigen::Matrix2Xd pixels = kFar * projected(body.corners, Quat::FromTwoVectors(view, Vec3::UnitZ()), center, flat);
     std::vector<cv::Point2f> points, hull;
-    for (Eigen::Index i = 0; i < pixels.cols(); ++i) points.emplace_back(static_cast<float>(pixels(0, i)), static_cast<float>(pixels(1, i)));
+    for (const auto& p : pixels.colwise()) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
     cv::convexHull(points, hull);
     const double area = cv::contourArea(hull);
     least = std::min(least, area);
@@ -121,12 +121,13 @@ bool see(const Region& region, const ShotCamera& camera, const Footage& footage,
 cv::Mat cut_out(const cv::Mat& frame, const ShotCamera& camera, const Footage& footage, Look& look) {
   look.step = 2.0 * kAround * look.radius / kPictureSize;
   std::vector<cv::Point2d> pixels;
+  const Vec2 corner = look.pixel - Vec2::Constant(0.5 * (kPictureSize - 1) * look.step);
   for (int v = 0; v < kPictureSize; ++v)
-    for (int u = 0; u < kPictureSize; ++u)
-      pixels.emplace_back(look.pixel.x() + (u - 0.5 * (kPictureSize - 1)) * look.step, look.pixel.y() + (v - 0.5 * (kPictureSize - 1)) * look.step);
+    for (int u = 0; u < kPictureSize; ++u) pixels.emplace_back(corner.x() + u * look.step, corner.y() + v * look.step);
   to_frame_pixels(pixels, look.frame, camera, footage);
   const int reach = static_cast<int>(std::ceil(1.6 * kAround * look.radius)) + 4;
-  const cv::Rect box = cv::Rect(static_cast<int>(look.pixel.x()) - reach, static_cast<int>(look.pixel.y()) - reach, 2 * reach, 2 * reach) &
+  const cv::Point2d middle = pixels[pixels.size() / 2 + kPictureSize / 2];
+  const cv::Rect box = cv::Rect(static_cast<int>(middle.x) - reach, static_cast<int>(middle.y) - reach, 2 * reach, 2 * reach) &
                        cv::Rect(0, 0, frame.cols, frame.rows);
   if (box.empty()) return {};
   cv::Mat part = frame(box), smooth, picture;
@@ -134,7 +135,7 @@ cv::Mat cut_out(const cv::Mat& frame, const ShotCamera& camera, const Footage& f
   cv::GaussianBlur(part, smooth, {}, blur);
   cv::Mat map(kPictureSize, kPictureSize, CV_32FC2);
   for (std::size_t i = 0; i < pixels.size(); ++i)
-    map.at<cv::Vec2f>(static_cast<int>(i)/ kPictureSize, static_cast<int>(i) % kPictureSize) =
+    map.at<cv::Vec2f>(static_cast<int>(i) / kPictureSize, static_cast<int>(i) % kPictureSize) =
         cv::Vec2f(static_cast<float>(pixels[i].x - box.x), static_cast<float>(pixels[i].y - box.y));
   cv::remap(smooth, picture, map, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return picture;

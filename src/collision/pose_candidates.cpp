@@ -68,7 +68,8 @@ std::vector<PoseCandidate> pose_candidates(const SpinBody& body, const Camera& c
   std::vector<PoseCandidate> all = on_grid(body, camera, look);
   const auto better = [](const PoseCandidate& a, const PoseCandidate& b) { return a.cost < b.cost; };
   const auto alike = [&](const std::vector<PoseCandidate>& kept, const Quat& q, double within) {
-    return std::any_of(kept.begin(), kept.end(), [&](const PoseCandidate& k) { return angle_between(q, k.q, body.symmetry.turns) < within; });
+    const auto near = [&](const PoseCandidate& k) { return angle_between(q, k.q, body.symmetry.turns) < within; };
+    return std::any_of(kept.begin(), kept.end(), near);
   };
   std::sort(all.begin(), all.end(), better);
   std::vector<PoseCandidate> starts, minima, few;

@@ -43,13 +43,14 @@ std::vector<Vec2> mask_outline(const cv::Mat& mask, double spur) {
   std::vector<cv::Point2f> corners, hull;
   for (int v = 0; v < clean.rows; ++v) {
     const auto* row = clean.ptr<std::uint8_t>(v);
-    const auto* end = row + clean.cols;
-    const auto* first = std::find_if(row, end, [](std::uint8_t m) { return m != 0; });
-    if (first == end) continue;
-    const auto* last = std::find_if(std::make_reverse_iterator(end), std::make_reverse_iterator(row), [](std::uint8_t m) { return m != 0; }).base();
-    // a pixel reaches half a pixel to each side; at slanting edges its centre is what tells
-    const float left = static_cast<float>(first - row) - 0.5F, right = static_cast<float>(last - row) - 0.5F, y = static_cast<float>(v);
-    corners.insert(corners.end(), {{left, y}, {right, y}, {left + 0.5F, y - 0.5F}, {left + 0.5F, y + 0.5F}, {right - 0.5F, y - 0.5F}, {right - 0.5F, y + 0.5F}});
+    int first = 0, last = clean.cols - 1;
+    while (first <= last && row[first] == 0) ++first;
+    while (last > first && row[last] == 0) --last;
+    if (first > last) continue;
+    // a pixel reaches half a pixel up, down and to each side; at slanting edges its centre is what tells
+    const auto left = static_cast<float>(first), right = static_cast<float>(last), y = static_cast<float>(v);
+    for (const float side : {-0.5F, 0.5F}) corners.insert(corners.end(), {{left, y + side}, {right, y + side}});
+    corners.insert(corners.end(), {{left - 0.5F, y}, {right + 0.5F, y}});
   }
   if (corners.empty()) return {};
   cv::convexHull(corners, hull);

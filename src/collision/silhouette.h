@@ -29,7 +29,7 @@ Eigen::Matrix2Xd projected(const Eigen::Matrix3Xd& vertices, const Quat& q, cons
 /// Empty if nothing is left.
 std::vector<Vec2> mask_outline(const cv::Mat& mask, double spur);
 
-/// Area and centroid of a convex polygon.
+/// Area of a polygon without crossings.
 double polygon_area(const std::vector<Vec2>& polygon);
 
 }  // namespace unseen::collision

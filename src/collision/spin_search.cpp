@@ -33,7 +33,8 @@ void keep_best(std::vector<Turning>& all, const SpinBody& body, double from, dou
     bool known = false;
     for (std::size_t i = 0; i < kept.size() && !known; ++i)
       known = (t.h - kept[i].h).norm() < std::max(slack, 0.1 * t.h.norm()) &&
-              angle_between(first, ends[i].first, body.symmetry.turns) < kAlike && angle_between(last, ends[i].second, body.symmetry.turns) < kAlike;
+              angle_between(first, ends[i].first, body.symmetry.turns) < kAlike &&
+              angle_between(last, ends[i].second, body.symmetry.turns) < kAlike;
     if (known) continue;
     kept.push_back(t);
     ends.emplace_back(first, last);

@@ -31,8 +31,8 @@ std::vector<Turning> find_turnings(const SpinBody& body, const Camera& camera, c
 void keep_best(std::vector<Turning>& all, const SpinBody& body, double from, double to, std::size_t count);
 
 /// Robust χ² of the silhouettes of looks [begin, end).
-double silhouette_cost(const Turning& turning, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks, std::size_t begin,
-                       std::size_t end);
+double silhouette_cost(const Turning& turning, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks,
+                       std::size_t begin, std::size_t end);
 
 /// The minimum nearest to `start` over looks [begin, end).
 Turning refined(const Turning& start, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks, std::size_t begin,

@@ -29,7 +29,8 @@ void add_colors(SpinFlight& flight, const SpinBody& body, const std::vector<Surf
   std::vector<const Look*> looks;
   for (const Look& look : flight.looks) looks.push_back(&look);
   std::vector<double> variances;
-  for (const Turning& t : flight.turnings) variances.push_back(color_variance(points, camera, looks, orientations_of(t, body, flight.looks)));
+  for (const Turning& t : flight.turnings)
+    variances.push_back(color_variance(points, camera, looks, orientations_of(t, body, flight.looks)));
   const double least = *std::min_element(variances.begin(), variances.end());
   for (std::size_t i = 0; i < variances.size(); ++i) {
     flight.turnings[i].cost /= flight.noise * flight.noise;

@@ -20,8 +20,8 @@ Turning at_time(const Turning& turning, const SpinBody& body, double time) {
   return other;
 }
 
-double silhouette_cost(const Turning& turning, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks, std::size_t begin,
-                       std::size_t end) {
+double silhouette_cost(const Turning& turning, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks,
+                       std::size_t begin, std::size_t end) {
   return SilhouetteFit::cost(SilhouetteFit(body, camera, looks, begin, end).residuals(turning));
 }
 

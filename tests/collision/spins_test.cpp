@@ -99,17 +99,21 @@ class Spins : public testing::Test {
   static void SetUpTestSuite() {
     filmed_ = new Filmed(film(small("boxes", 3), "spins_test.mp4"));
     Context context;
-    spins_ = new std::vector<std::vector<Spin>>(find_spins(filmed_->scene.shot, filmed_->camera, filmed_->footage, filmed_->tracks, filmed_->centers, 6, context));
+    spins_ = new std::vector<std::vector<Spin>>(find(filmed_->scene.shot, filmed_->tracks, context));
   }
   static void TearDownTestSuite() {
     std::filesystem::remove(filmed_->scene.shot.video);
     delete filmed_;
     delete spins_;
   }
+  static std::vector<std::vector<Spin>> find(const Shot& shot, const Tracks& tracks, Context& context) {
+    return find_spins(shot, filmed_->camera, filmed_->footage, tracks, filmed_->centers, 6, context);
+  }
   static std::vector<Quat> turns(int body) {
     const Solid solid = solid_of(filmed_->scene.truth.bodies[static_cast<std::size_t>(body)], "test");
     std::vector<Quat> all;
-    for (const Quat& g : symmetry_of(solid.hull.vertices).turns) all.push_back(solid.file_to_principal.conjugate() * g * solid.file_to_principal);
+    for (const Quat& g : symmetry_of(solid.hull.vertices).turns)
+      all.push_back(solid.file_to_principal.conjugate() * g * solid.file_to_principal);
     return all;
   }
   static double error(const Spin& spin, int body) {
@@ -169,7 +173,7 @@ TEST_F(Spins, CandidatesAreSortedDistinctAndAsManyAsAsked) {
 TEST_F(Spins, SameResultAtAnyNumberOfThreads) {
   Context context;
   context.threads = 1;
-  const auto again = find_spins(filmed_->scene.shot, filmed_->camera, filmed_->footage, filmed_->tracks, filmed_->centers, 6, context);
+  const auto again = find(filmed_->scene.shot, filmed_->tracks, context);
   ASSERT_EQ(again.size(), spins_->size());
   for (std::size_t s = 0; s < again.size(); ++s) {
     ASSERT_EQ(again[s].size(), (*spins_)[s].size());
@@ -181,10 +185,10 @@ TEST_F(Spins, SpheresAndFlightsWithoutRegionsHaveNone) {
   Shot shot = filmed_->scene.shot;
   for (Body& b : shot.bodies) b.shape = Shape::sphere, b.radius = 0.1;
   Context context;
-  for (const auto& list : find_spins(shot, filmed_->camera, filmed_->footage, filmed_->tracks, filmed_->centers, 6, context)) EXPECT_TRUE(list.empty());
+  for (const auto& list : find(shot, filmed_->tracks, context)) EXPECT_TRUE(list.empty());
   Tracks blind = filmed_->tracks;
   for (TrackPoint& p : blind.points) p.region = -1;
-  for (const auto& list : find_spins(filmed_->scene.shot, filmed_->camera, filmed_->footage, blind, filmed_->centers, 6, context)) EXPECT_TRUE(list.empty());
+  for (const auto& list : find(filmed_->scene.shot, blind, context)) EXPECT_TRUE(list.empty());
 }
 
 }  // namespace
