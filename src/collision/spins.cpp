@@ -19,7 +19,7 @@ constexpr std::size_t kTurnings = 10;     // followed up a flight
 constexpr std::size_t kRefined = 6;       // of those, by colours too
 constexpr std::size_t kPoints = 400;      // of a surface
 constexpr double kIndependent = 10.0;     // directions of a silhouette
-constexpr double kModel = 0.018;          // rad: what outlines that are cut wrongly do to a whole motion
+constexpr double kModel = 0.03;           // rad: what outlines that are cut wrongly do to a whole motion
 constexpr double kVaguest = 0.5;          // rad, of an orientation as an observation
 
 bool has_spin(const Body& body) { return body.shape == Shape::box || body.shape == Shape::mesh; }
