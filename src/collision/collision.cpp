@@ -6,7 +6,7 @@
 #include "collision/remarks.h"
 #include "collision/shot_problem.h"
 #include "collision/solve_impacts.h"
-#include "collision/turning.h"
+#include "collision/solve_turning.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {

@@ -32,8 +32,8 @@ std::optional<ValueScore> score(const std::optional<Estimate>& value, const std:
 }
 
 /// The turns that nobody can see of a body; none for a ball, which may turn as it likes.
-std::vector<Mat3> own_turns(const Body& body) {
-  if (body.shape == Shape::box || body.shape == Shape::mesh) return rotations_of(body_mesh(body, body.name).vertices);
+std::vector<Quat> own_turns(const Body& body) {
+  if (body.shape == Shape::box || body.shape == Shape::mesh) return symmetry_of(body_mesh(body, body.name).vertices).turns;
   return {};
 }
 
@@ -42,17 +42,11 @@ RigidTransform in_camera(const BodyState& s, const RigidTransform& T_world_camer
   return T_world_camera.inverse() * RigidTransform{s.q.normalized().toRotationMatrix(), s.p};
 }
 
-double angle_between(const Mat3& a, const Mat3& b, const std::vector<Mat3>& turns) {
-  double least = kPi;
-  for (const Mat3& turn : turns) least = std::min(least, std::abs(Eigen::AngleAxisd(a.transpose() * b * turn).angle()));
-  return least;
-}
-
 MotionScore score_motion(const Reconstruction& result, const Truth& truth, std::size_t b) {
   std::map<int, const BodyState*> solved;
   for (const FramePose& f : result.frames)
     if (f.bodies[b]) solved[f.frame] = &*f.bodies[b];
-  const std::vector<Mat3> turns = own_turns(truth.bodies[b]);
+  const std::vector<Quat> turns = own_turns(truth.bodies[b]);
   MotionScore s;
   s.name = truth.bodies[b].name;
   Vec3 squares = Vec3::Zero();
@@ -62,7 +56,7 @@ MotionScore score_motion(const Reconstruction& result, const Truth& truth, std::
     if (!f.bodies[b] || at == solved.end()) continue;
     const RigidTransform found = in_camera(*at->second, result.T_world_camera), real = in_camera(*f.bodies[b], truth.T_world_camera);
     squares += (found.translation - real.translation).cwiseAbs2();
-    const double angle = angle_between(found.rotation, real.rotation, turns);
+    const double angle = angle_between(Quat(found.rotation), Quat(real.rotation), turns);
     angles += angle * angle;
     ++s.frames;
   }

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMostChi2 = 3.0;
 constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
+constexpr double kLopsided = 0.01;    // of the projected size: blur, shade and shadow shift a region's centroid by so much
 constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
 constexpr double kTrendSize = 2.0;    // in noise: smaller trends do no harm
 
@@ -65,7 +66,10 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
   ModelCheck check;
   const Problem& problem = solution.problem;
   check.held_out.assign(problem.points.size(), 0);
-  noise = std::max(noise, kLeastNoise);
+  double size = 0.0;
+  for (const PointObservation& p : problem.points)
+    if (p.depth > 0.0) size = std::max(size, problem.camera.fx * problem.solids[p.body].mass.extent / p.depth);
+  noise = std::hypot(std::max(noise, kLeastNoise), kLopsided * size);
   State state = solution.fit.state;
   if (every > 1) {
     Problem rest = problem;

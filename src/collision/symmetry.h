@@ -4,12 +4,22 @@
 
 #include <vector>
 
-#include "unseen/core/geometry.h"
+#include "unseen/collision/types.h"
 
 namespace unseen::collision {
 
-/// The rotations about the origin that map a set of points to itself, the identity first: 4 for the corners of a box with three different
-/// edges, 8 for a square section, 24 for a cube. The points must not lie on one line.
-std::vector<Mat3> rotations_of(const std::vector<Vec3>& points);
+/// Rigid maps of a convex body (corners about its centre of mass) onto itself, within `tolerance` of its reach.
+struct Symmetry {
+  std::vector<Quat> turns;         ///< rotations; the identity first
+  std::vector<Mat3> reflections;   ///< determinant −1
+};
+
+Symmetry symmetry_of(const std::vector<Vec3>& corners, double tolerance = 0.01);
+
+/// The member g of `turns` for which q·g is nearest to `to`, as q·g.
+Quat nearest_alike(const Quat& q, const Quat& to, const std::vector<Quat>& turns);
+
+/// Angle between two orientations of a body with these symmetries, rad.
+double angle_between(const Quat& a, const Quat& b, const std::vector<Quat>& turns);
 
 }  // namespace unseen::collision

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/solve_turning.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr int kKept = 3;     // rotations of a flight that are looked at
+constexpr int kCombined = 8;  // combinations of them that are solved
+
+/// Given orientations within the flights that meet in this impact.
+std::vector<OrientationObservation> given(const Shot& shot, const Problem& problem) {
+  std::vector<OrientationObservation> all;
+  for (const OrientationHint& hint : shot.orientations) {
+    if (shot.bodies[hint.body].shape == Shape::fixed || problem.solids[hint.body].is_sphere()) continue;
+    const PointObservation* nearest = nullptr;  // tells the side
+    for (const PointObservation& p : problem.points)
+      if (p.body == hint.body && (!nearest || std::abs(p.time - hint.time) < std::abs(nearest->time - hint.time))) nearest = &p;
+    if (!nearest) continue;
+    all.push_back({hint.body, nearest->after, hint.time, (hint.q * problem.solids[hint.body].file_to_principal.conjugate()).normalized()});
+  }
+  return all;
+}
+
+/// The centres of all track points by this impact's solution, in camera coordinates.
+std::vector<Vec3> centers_of(const SolvedImpact& impact, const Tracks& tracks) {
+  const StateT<double> s = values_of(impact.solution.problem, impact.solution.fit.state);
+  std::vector<Vec3> centers;
+  for (const TrackPoint& p : tracks.points) centers.push_back(position_at<double>(impact.solution.problem, s, p.body, p.time > s.time, p.time));
+  return centers;
+}
+
+/// One rotation for each flight that has any, and what they cost together.
+struct Combination {
+  std::vector<const Spin*> spins;
+  double cost = 0;
+};
+
+/// Combinations of the flights' rotations, the best first.
+std::vector<Combination> combinations(const std::vector<std::vector<Spin>>& spins, const Tracks::Meeting& meeting) {
+  std::vector<Combination> all = {{}};
+  for (const std::vector<int>* spans : {&meeting.before, &meeting.after})
+    for (const int span : *spans) {
+      if (spins[span].empty()) continue;
+      std::vector<Combination> longer;
+      for (const Combination& c : all)
+        for (const Spin& spin : spins[span]) {
+          longer.push_back(c);
+          longer.back().spins.push_back(&spin);
+          longer.back().cost += spin.cost - spins[span].front().cost;
+        }
+      all = std::move(longer);
+    }
+  std::stable_sort(all.begin(), all.end(), [](const Combination& a, const Combination& b) { return a.cost < b.cost; });
+  if (all.size() > kCombined) all.resize(kCombined);
+  return all;
+}
+
+Problem with_orientations(Problem problem, const Combination& combination, const Tracks& tracks, const Tracks::Meeting& meeting) {
+  double squares = 0.0;
+  for (const Spin* spin : combination.spins)
+    for (const Orientation& o : spin->orientations) {
+      const bool after = std::find(meeting.after.begin(), meeting.after.end(), spin->span) != meeting.after.end();
+      problem.orientations.push_back({tracks.spans[spin->span].body, after, o.time,
+                                      (o.q * problem.solids[o.body].file_to_principal.conjugate()).normalized()});
+      squares += o.sigma * o.sigma;
+    }
+  problem.orientation_sigma = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, problem.orientations.size())));
+  return problem;
+}
+
+/// Solves with the film's rotations; those that the impact cannot join cost more than those that it can.
+Solution solve_with(const std::vector<std::vector<Spin>>& spins, const SolvedImpact& impact, const Tracks& tracks, int starts, Context& context) {
+  Solution best;
+  double best_cost = 0.0;
+  std::vector<std::pair<double, Solution>> solved;
+  for (const Combination& combination : combinations(spins, impact.meeting)) {
+    if (combination.spins.empty()) break;
+    const Problem problem = with_orientations(impact.solution.problem, combination, tracks, impact.meeting);
+    Solution solution = best_fit(problem, impact.solution.fit.state.time, starts, context);
+    if (solution.fit.usable) solved.emplace_back(solution.fit.cost + 0.5 * combination.cost, std::move(solution));
+  }
+  for (auto& [cost, solution] : solved)
+    if (!best.fit.usable || cost < best_cost) best_cost = cost, best = solution;
+  const auto value = [](const Solution& s) { return restitution<double>(s.problem, s.fit.state, values_of(s.problem, s.fit.state)); };
+  for (const auto& [cost, solution] : solved) {
+    constexpr double kAlike = 3.0, kOther = 0.05;
+    if (cost > best_cost + kAlike || cost == best_cost) continue;
+    const double c = value(solution), m = solution.fit.state.mass_ratio;
+    if (std::abs(c - value(best)) < kOther && std::abs(m / best.fit.state.mass_ratio - 1.0) < kOther) continue;
+    best.others.push_back({"another turning that the film allows", c, m, 2.0 * (cost - best_cost)});
+  }
+  return best;
+}
+
+}  // namespace
+
+void solve_turning(const Shot& shot, const Options& options, const ShotCamera& camera, const Footage& footage, const Tracks& tracks,
+                   SolvedImpact& impact, Context& context) {
+  const auto& solids = impact.solution.problem.solids;
+  const auto may_turn = [&](int o) { return shot.bodies[o].shape != Shape::fixed && solids[o].known_shape && !solids[o].is_sphere(); };
+  if (!impact.solution.problem.terms.orientation || (!may_turn(0) && !may_turn(1))) return;
+  Solution solution;
+  Problem problem = impact.solution.problem;
+  problem.orientations = given(shot, problem);
+  if (!problem.orientations.empty()) {
+    solution = best_fit(problem, impact.solution.fit.state.time, options.starts, context);
+  } else if (!footage.regions.empty()) {
+    constexpr int kStarts = 2;  // the film's rotations leave no turns open
+    const std::vector<std::vector<Spin>> spins = find_spins(shot, camera, footage, tracks, centers_of(impact, tracks), kKept, context);
+    solution = solve_with(spins, impact, tracks, kStarts, context);
+  }
+  if (solution.fit.usable) impact.solution = std::move(solution);
+}
+
+}  // namespace unseen::collision
