@@ -52,7 +52,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   result.fps = evidence.fps;
   result.T_world_camera = world_of(shot.down.value_or(Vec3::UnitY()), shot.gravity == 0.0);
   if (shot.bodies[1].shape == Shape::fixed) result.fixed = shot.bodies[1].name;
-  for (const Body& body : shot.bodies) result.bodies.push_back({body.name, body.shape == Shape::fixed, {}, {}, {}});
+  for (const Body& body : shot.bodies) result.bodies.push_back({body.name, body.shape == Shape::fixed, Vec3::Zero(), {}, {}});
 
   std::vector<SolvedImpact> impacts;
   {

@@ -7,7 +7,7 @@ namespace unseen::collision {
 OptionTable describe(Options& o) {
   OptionTable t;
   t.add({"physics", &o.physics, "", "exact: impulse and momentum hold to rounding; soft: as residuals with the thesis's weights", 0, 0, {"exact", "soft"}});
-  t.add({"without", &o.without, "", "terms left out, separated by commas, for ablations: momentum, impulse, energy, restitution, gravity, size, orientation", 0, 0, {}});
+  t.add({"without", &o.without, "", "terms left out, separated by commas, for ablations: momentum, impulse, energy, restitution, gravity, size, orientation"});
   t.add({"friction", &o.friction, "", "the impulse may have a part across the normal; false takes it to lie along the normal", 0, 1, {}});
   t.add({"drag", &o.drag, "", "quadratic drag of the air: from mass and size (on), or estimated from the flights", 0, 0, {"off", "on", "estimate"}});
   t.add({"drag_coefficient", &o.drag_coefficient, "1", "Cd, 0.47 for a sphere", 0.0, 10.0, {}});

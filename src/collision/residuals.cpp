@@ -28,7 +28,10 @@ constexpr int kFlightParts = 10;
 template <class T>
 Vec3T<T> flown(const Problem& problem, const PointObservation& seen, const std::array<T, kFlightParts>& in) {
   const PointState<T> start{Vec3T<T>(in[0], in[1], in[2]), Vec3T<T>(in[3], in[4], in[5])};
-  return fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[seen.body]), T(seen.time) - in[9]).p;
+  Vec3T<T> p = fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[seen.body]), T(seen.time) - in[9]).p;
+  constexpr double kNearest = 0.01;  // m: what a step takes behind the camera is far off, and nothing worse
+  if (value_of(p.z()) < kNearest) p.z() = T(kNearest);
+  return p;
 }
 
 template <class T>
@@ -44,12 +47,10 @@ struct PointTerm : Base {
   template <class T>
   auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
   template <class T>
-  bool of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     const Vec3T<T> p = flown<T>(problem, seen, in);
-    if (value_of(p.z()) < 1e-3) return false;
     r[0] = (p.x() / p.z() * problem.camera.fx + problem.camera.cx - seen.pixel.x()) / problem.pixel_sigma;
     r[1] = (p.y() / p.z() * problem.camera.fy + problem.camera.cy - seen.pixel.y()) / problem.pixel_sigma;
-    return true;
   }
 };
 
@@ -60,12 +61,10 @@ struct DepthTerm : Base {
   template <class T>
   auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
   template <class T>
-  bool of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     using std::log;
     const Vec3T<T> p = flown<T>(problem, seen, in);
-    if (value_of(p.z()) < 1e-3) return false;
     r[0] = log(p.z() / seen.depth) / seen.depth_sigma;
-    return true;
   }
 };
 
@@ -79,7 +78,7 @@ struct OrientationTerm : Base {
     return {&turn.x(), &turn.y(), &turn.z(), &h.x(), &h.y(), &h.z(), &s.time};
   }
   template <class T>
-  bool of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>& s) const {
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>& s) const {
     const Vec3& inertia = problem.solids[seen.body].mass.inertia;
     const Vec3 h(value_of(in[3]), value_of(in[4]), value_of(in[5]));
     QuatT<T> q;
@@ -94,7 +93,6 @@ struct OrientationTerm : Base {
     }
     const Vec3T<T> off = rotation_vector<T>(q * seen.q.conjugate().cast<T>());
     for (int i = 0; i < 3; ++i) r[i] = off[i] / problem.orientation_sigma;
-    return true;
   }
 };
 
@@ -237,14 +235,15 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
         std::array<double, kParts> in;
         const auto parts = term_.parts(evaluation_.state);
         for (int i = 0; i < kParts; ++i) in[i] = *parts[i];
-        return term_.of_parts(in, residuals, evaluation_.state);
+        term_.of_parts(in, residuals, evaluation_.state);
+        return true;
       }
       using Lean = ceres::Jet<double, kParts>;
       std::array<Lean, kParts> in;
       const auto parts = term_.parts(evaluation_.wide);
       for (int i = 0; i < kParts; ++i) in[i] = Lean(parts[i]->a, i);
       std::array<Lean, kResiduals> r;
-      if (!term_.of_parts(in, r.data(), evaluation_.state)) return false;
+      term_.of_parts(in, r.data(), evaluation_.state);
       Eigen::Map<Eigen::Matrix<double, kResiduals, kUnknowns, Eigen::RowMajor>> jacobian(jacobians[0]);
       for (int k = 0; k < kResiduals; ++k) {
         residuals[k] = r[k].a;

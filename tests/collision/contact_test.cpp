@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include "collision/contact.h"
+#include "unseen/core/error.h"
+#include "unseen/core/random.h"
+
+namespace unseen::collision {
+namespace {
+
+Body box(const Vec3& size) {
+  Body b;
+  b.name = "box";
+  b.shape = Shape::box;
+  b.box = size;
+  return b;
+}
+
+Body mesh_of_box(const Vec3& size, const Vec3& offset) {
+  Body b = box(size);
+  b.shape = Shape::mesh;
+  for (int i = 0; i < 8; ++i) b.mesh.vertices.push_back(offset + 0.5 * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(size));
+  b.mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return b;
+}
+
+Body ball(double radius) {
+  Body b;
+  b.name = "ball";
+  b.radius = radius;
+  return b;
+}
+
+TEST(MassProperties, OfAMeshEqualTheClosedFormOfTheBox) {
+  const Vec3 size(0.1, 0.2, 0.3), offset(5.0, -3.0, 2.0);
+  const MassProperties of_mesh = mass_properties(mesh_of_box(size, offset), "test"), of_box = mass_properties(box(size), "test");
+  EXPECT_LT((of_mesh.center - offset).norm(), 1e-12);
+  EXPECT_NEAR(of_mesh.volume, of_box.volume, 1e-12);
+  EXPECT_NEAR(of_mesh.extent, of_box.extent, 1e-12);
+  Vec3 sorted = of_box.inertia;
+  std::sort(sorted.data(), sorted.data() + 3);
+  EXPECT_LT((of_mesh.inertia - sorted).norm(), 1e-12);
+}
+
+TEST(MassProperties, RefuseAnOpenMesh) {
+  Body open = mesh_of_box(Vec3(1, 1, 1), Vec3::Zero());
+  open.mesh.triangles.pop_back();
+  EXPECT_THROW(mass_properties(open, "test"), InputError);
+}
+
+TEST(Contact, OfSpheresIsTheLineOfCentres) {
+  const Solid a = solid_of(ball(0.1), ""), b = solid_of(ball(0.2), "");
+  const auto near = nearest(a, Vec3(1, 0, 0), Quat::Identity(), b, Vec3(0, 0, 0), Quat::Identity(), 0.001);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(near->gap, 0.7, 1e-12);
+  EXPECT_LT((near->normal - Vec3::UnitX()).norm(), 1e-12);
+  EXPECT_LT((near->point_b - Vec3(0.2, 0, 0)).norm(), 1e-12);
+}
+
+TEST(Contact, OfABallAndABoxAgreesWithTheNearestPointOfTheBox) {
+  const Vec3 size(0.2, 0.3, 0.4);
+  const Solid a = solid_of(ball(0.05), ""), b = solid_of(box(size), "");
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 center = 0.5 * random.direction();
+    const Vec3 on_box = center.cwiseMax(-0.5 * size).cwiseMin(0.5 * size);
+    const auto near = nearest(a, center, Quat::Identity(), b, Vec3::Zero(), Quat::Identity(), 1e-6);
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(near->gap, (center - on_box).norm() - 0.05, 1e-9);
+    EXPECT_LT((near->normal - (center - on_box).normalized()).norm(), 1e-6);
+  }
+}
+
+TEST(Contact, OfACornerOnAFaceIsTheCorner) {
+  const Solid a = solid_of(box(Vec3(0.1, 0.1, 0.1)), ""), b = solid_of(box(Vec3(1, 1, 0.2)), "");
+  const Quat q = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1));
+  const auto near = nearest(a, Vec3(0.1, 0.2, 0.1 + 0.05 * std::sqrt(3.0)), q, b, Vec3::Zero(), Quat::Identity(), 0.002);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(near->gap, 0.0, 1e-9);
+  EXPECT_LT((near->normal - Vec3::UnitZ()).norm(), 1e-9);
+  EXPECT_LT((near->point_a - Vec3(0.1, 0.2, 0.1)).norm(), 1e-9);
+  EXPECT_LT(near->slack.norm(), 1e-12);
+}
+
+TEST(Contact, OfTwoFacesHasTheSlackOfTheirOverlap) {
+  const Solid a = solid_of(box(Vec3(0.2, 0.1, 0.1)), ""), b = solid_of(box(Vec3(1, 1, 0.2)), "");
+  const auto near = nearest(a, Vec3(0.0, 0.0, 0.15), Quat::Identity(), b, Vec3::Zero(), Quat::Identity(), 0.002);
+  ASSERT_TRUE(near);
+  EXPECT_NEAR(near->slack.maxCoeff(), 0.1, 0.005);
+  EXPECT_LT((near->point_a - Vec3(0, 0, 0.1)).norm(), 1e-9);
+}
+
+TEST(Contact, WithAPlaneIsTheLowestCorner) {
+  const Solid a = solid_of(box(Vec3(0.1, 0.1, 0.1)), "");
+  const Quat q = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1));
+  const Proximity near = nearest_to_plane(a, Vec3(0, 0, 1), q, Vec3::UnitZ(), 0.002);
+  EXPECT_LT((near.point_a - Vec3(0, 0, 1 - 0.05 * std::sqrt(3.0))).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace unseen::collision
