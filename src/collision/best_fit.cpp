@@ -38,12 +38,13 @@ void estimate_noise(Problem& problem, const State& state) {
   }
   constexpr double kToSigma = 1.4826, kUnknownsOfFlights = 18.0, kUnknownsOfTurning = 14.0;
   const auto paid = [](std::size_t count, double unknowns) { return std::sqrt(static_cast<double>(count) / std::max(4.0, static_cast<double>(count) - unknowns)); };
-  problem.pixel_sigma = std::max(0.02, kToSigma * median(pixels) * paid(pixels.size(), kUnknownsOfFlights));
+  constexpr double kMost = 3.0;  // times what was expected: more is no noise but a fit that failed
+  problem.pixel_sigma = std::clamp(kToSigma * median(pixels) * paid(pixels.size(), kUnknownsOfFlights), 0.02, kMost * problem.pixel_sigma);
   // few orientations cannot tell their noise: what was expected counts as so many more
   constexpr double kExpected = 24.0;
   if (angles.empty() || !problem.terms.orientation) return;
   const double expected = problem.orientation_sigma, seen = kToSigma * median(angles) * paid(angles.size(), kUnknownsOfTurning), count = static_cast<double>(angles.size());
-  problem.orientation_sigma = std::max(kLeastOrientation, std::sqrt((kExpected * expected * expected + count * seen * seen) / (kExpected + count)));
+  problem.orientation_sigma = std::clamp(std::sqrt((kExpected * expected * expected + count * seen * seen) / (kExpected + count)), kLeastOrientation, kMost * expected);
 }
 
 std::vector<Alternative> alternatives(const Problem& problem, const std::vector<Fit>& fits, const Fit& best) {

@@ -163,14 +163,19 @@ struct TouchTerm : Base {
   Proximity touch;
   std::array<Vec3, 2> local;  // the surface points in the principal frames
   double sigma;               // m
+  bool has_point;             // the contact point is one of the unknowns
 
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
     const Vec3T<T> a = s.p[0] + s.q[0] * local[0].cast<T>();
     const Vec3T<T> b = problem.fixed ? a : Vec3T<T>(s.p[1] + s.q[1] * local[1].cast<T>());
-    r[0] = touch.normal.cast<T>().dot(a - b) / sigma;
+    using std::sqrt;
+    if (!problem.fixed && problem.solids[0].is_sphere() && problem.solids[1].is_sphere())
+      r[0] = (sqrt((s.p[0] - s.p[1]).squaredNorm()) - problem.solids[0].radius - problem.solids[1].radius) / sigma;
+    else
+      r[0] = touch.normal.cast<T>().dot(a - b) / sigma;
     const Vec3T<T> off = touch.axes.transpose().cast<T>() * (s.x - (a + b) * 0.5);
-    for (int i = 0; i < 3; ++i) r[1 + i] = off[i] / (sigma + 0.6 * touch.slack[i]);
+    for (int i = 0; i < 3; ++i) r[1 + i] = has_point ? off[i] / (sigma + 0.6 * touch.slack[i]) : T(0.0);
   }
 };
 
@@ -324,14 +329,13 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
     adder.add("touch", TouchTerm{base, *touch,
                                     {reference.q[0].conjugate() * (touch->point_a - reference.p[0]),
                                      reference.q[1].conjugate() * (touch->point_b - reference.p[1])},
-                                    touch_sigma(problem)});
+                                    touch_sigma(problem), problem.turns(0) || problem.turns(1)});
   else
     adder.add("midpoint", MidpointTerm{base});
   if (terms.soft) {
-    // The thesis weighs by 10 against the mean squared reprojection error in pixels; here errors are over noise and summed.
-    const double weight = std::sqrt(10.0 * static_cast<double>(problem.points.size())) / problem.pixel_sigma;
-    if (terms.momentum && !problem.fixed) adder.add("momentum", MomentumTerm{base, weight});
-    if (terms.impulse) adder.add("impulse", ImpulseTerm{base, 0.5 * weight});
+    constexpr double kWeight = 100.0;  // per m/s: the thesis's 10 against the mean squared error of a hundred centroids known to a third of a pixel
+    if (terms.momentum && !problem.fixed) adder.add("momentum", MomentumTerm{base, kWeight});
+    if (terms.impulse) adder.add("impulse", ImpulseTerm{base, 0.5 * kWeight});
   }
   return adder.blocks;
 }

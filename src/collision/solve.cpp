@@ -8,6 +8,7 @@
 #include <ceres/solver.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "collision/residuals.h"
@@ -16,7 +17,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kMostLogMass = 5.0;  // a step in the mass ratio is at most by this factor's logarithm
+constexpr double kMostRatio = 50.0;  // of masses: beyond, the heavier body might as well be fixed
 
 /// The unknowns that nothing in the shot tells of, or that are given.
 std::vector<int> held_unknowns(const Problem& problem) {
@@ -62,13 +63,28 @@ std::optional<Vec3> normal_of(const Problem& problem, const std::optional<Proxim
   return std::nullopt;
 }
 
+/// The impact lies between the last sighting before it and the first after, or not far from there.
+std::pair<double, double> impact_times(const Problem& problem) {
+  double last = -1e9, first = 1e9, begin = 1e9, end = -1e9;
+  for (const PointObservation& p : problem.points) {
+    (p.after ? first : last) = p.after ? std::min(first, p.time) : std::max(last, p.time);
+    begin = std::min(begin, p.time);
+    end = std::max(end, p.time);
+  }
+  const double margin = 0.05 * (end - begin);
+  return {std::min(last, first) - margin, std::max(last, first) + margin};
+}
+
 /// A Ceres problem with the evaluation that its terms share.
 struct Setup {
   Setup(const Problem& problem, const State& reference, const std::optional<Proximity>& touch)
       : evaluation(problem, reference), ceres(options()), blocks(add_residuals(touch, evaluation, ceres)) {
     ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem)));
-    ceres.SetParameterLowerBound(unknowns(), kLogMass, -kMostLogMass);
-    ceres.SetParameterUpperBound(unknowns(), kLogMass, kMostLogMass);
+    const auto [earliest, latest] = impact_times(problem);
+    ceres.SetParameterLowerBound(unknowns(), kTime, std::min(0.0, earliest - reference.time));
+    ceres.SetParameterUpperBound(unknowns(), kTime, std::max(0.0, latest - reference.time));
+    ceres.SetParameterLowerBound(unknowns(), kLogMass, std::min(0.0, std::log(1.0 / kMostRatio / reference.mass_ratio)));
+    ceres.SetParameterUpperBound(unknowns(), kLogMass, std::max(0.0, std::log(kMostRatio / reference.mass_ratio)));
   }
   double* unknowns() { return evaluation.unknowns.data(); }
 
@@ -100,6 +116,12 @@ bool descend(const Problem& problem, const std::optional<Proximity>& touch, int 
   state = state_at(problem, reference, setup.unknowns());
   cost = summary.final_cost;
   return true;
+}
+
+/// Bounds on energy and restitution come last: on the way they would hold a solution back that leads to a better one within them.
+Problem without_bounds(Problem problem) {
+  problem.terms.energy = problem.terms.restitution = false;
+  return problem;
 }
 
 std::map<std::string, double> term_sizes(const Problem& problem, const Fit& fit) {
@@ -140,21 +162,22 @@ Estimate estimate(const Wide& value, const Eigen::MatrixXd& covariance) {
 }  // namespace
 
 Fit approach(const Problem& problem, const State& start) {
-  constexpr int kIterations = 25;
+  constexpr int kIterations = 40;
   Fit fit;
   fit.state = start;
   fit.state.normal.reset();
+  const Problem free = without_bounds(problem);
   if (!problem.terms.soft && !problem.orientations.empty()) {  // momenta on both sides first, then the impulse that joins them
-    Problem apart = problem;
+    Problem apart = free;
     apart.terms.soft = true;
     if (!descend(apart, std::nullopt, kIterations, fit.state, fit.cost)) fit.state = start;
   }
-  fit.usable = descend(problem, std::nullopt, kIterations, fit.state, fit.cost);
+  fit.usable = descend(free, std::nullopt, kIterations, fit.state, fit.cost);
   return fit;
 }
 
 Fit settle(const Problem& problem, const State& start) {
-  constexpr int kIterations = 30, kTouches = 6;
+  constexpr int kIterations = 40, kTouches = 6;
   Fit fit;
   fit.state = start;
   for (int i = 0; i < kTouches; ++i) {
@@ -162,7 +185,10 @@ Fit settle(const Problem& problem, const State& start) {
     const double cost_before = fit.cost;
     fit.touch = touch_of(problem, fit.state);
     fit.state.normal = normal_of(problem, fit.touch);
-    if (fit.touch && !before) fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
+    if (fit.touch && !before) {
+      fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
+      descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
+    }
     fit.usable = descend(problem, fit.touch, kIterations, fit.state, fit.cost);
     const bool same_normal = before.has_value() == fit.state.normal.has_value() && (!before || (*before - *fit.state.normal).norm() < 1e-6);
     if (!fit.usable || !fit.touch || (i > 0 && same_normal && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
