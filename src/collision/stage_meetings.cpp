@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTurnStep = 20.0;   // deg: a collision is turned by that much at a time until nothing is in its way
 constexpr double kSlowest = 0.05;    // m/s
-constexpr double kAfter = 0.01;      // s: simulated beyond a meeting
+constexpr double kFramesAfter = 2.0;  // simulated beyond a meeting
 
 /// Where a body is at `time`, flown on from the last frame before it.
 StageState state_at(const Cast& cast, const StageRun& run, int actor, double time) {
@@ -100,7 +100,7 @@ class Arrangement {
     const Vec3 direction = relative.normalized();
     const double distance = touching_distance(cast_.actors[static_cast<std::size_t>(who[0])], a.q, cast_.actors[static_cast<std::size_t>(who[1])], b.q, direction);
     place(cast_, plan_, moved, aside + a.p + distance * direction - b.p, turn);
-    const auto failures = missed(cast_, simulate(cast_, plan_.fps, std::min(plan_.duration, time + kAfter), context_).impacts, 1.0 / plan_.fps, time);
+    const auto failures = missed(cast_, simulate(cast_, plan_.fps, std::min(plan_.duration, time + kFramesAfter / plan_.fps), context_).impacts, 1.0 / plan_.fps, time);
     if (failures.empty()) return true;
     obstacle = failures.front();
     return false;
