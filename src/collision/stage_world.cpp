@@ -15,7 +15,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kShortestStep = 1.0 / 9600;  // s: a body at 5 m/s goes half a millimetre
-constexpr double kSameImpact = 2e-3;          // s: contacts of a pair in quicker succession are one impact
+constexpr double kSameImpact = 1e-3;          // s: contacts of a pair in quicker succession are one impact, with the values of the hardest
 constexpr double kSlowest = 0.05;             // m/s: slower contacts are no impacts
 constexpr double kAtRest = 0.02;              // m/s: slower contacts do not bounce
 constexpr double kSameTime = 2e-5;            // s: what an animation tells apart
@@ -240,7 +240,9 @@ class Simulation {
     impact.normal = normal;
     last.impulse = contact.impulse;
     if (again) {
-      run.impacts[static_cast<std::size_t>(last.impact)] = impact;
+      StagedImpact& first = run.impacts[static_cast<std::size_t>(last.impact)];
+      impact.time = first.time;
+      first = impact;
       return false;
     }
     last.impact = static_cast<int>(run.impacts.size());
