@@ -22,7 +22,7 @@ bl_info = {
     "category": "Animation",
 }
 
-HANDOVER = 2  # frames before the impact at which Blender's simulation takes over
+HANDOVER = 2  # frames after the last impact at which Blender's simulation takes over
 IMPACT = "unseen_impact_frame"  # custom property of a collection: the scene's frame of its first impact
 
 
@@ -226,11 +226,13 @@ def add_keys(item, keys):
 
 
 def hand_over(item, impact_frame):
-    """Keys until shortly before the impact; from there on the simulation."""
+    """Keys until shortly after the impact, from there on the simulation. Not before: Bullet takes contacts ahead of time when bodies come
+    within a step of each other, which can rob them of all their bounce, and Blender has no setting against it."""
     rigid = item.rigid_body
-    for value, frame in ((True, impact_frame - HANDOVER - 1), (False, impact_frame - HANDOVER)):
+    last = math.ceil(impact_frame) + HANDOVER
+    for value, frame in ((True, last), (False, last + 1)):
         rigid.kinematic = value
-        rigid.keyframe_insert("kinematic", frame=math.floor(frame))
+        rigid.keyframe_insert("kinematic", frame=frame)
 
 
 def add_wall(scene, collection, wall):
@@ -296,7 +298,7 @@ def load(context, path, shot="", impact_frame=100.0, physics="KEYS", clip=True):
         add_keys(item, keys)
         if physics == "SIMULATION":
             own = [impact["time"] for impact in motion["impacts"] if body["name"] in impact["between"]]
-            hand_over(item, start + min(own, default=motion["impacts"][0]["time"]) * fps)
+            hand_over(item, start + max(own, default=motion["impacts"][0]["time"]) * fps)
     for wall in motion["walls"]:
         add_wall(scene, collection, wall)
     if clip and motion["camera"] and motion["camera"]["width"]:
@@ -330,7 +332,7 @@ class UnseenSettings(bpy.types.PropertyGroup):
     impact_frame: FloatProperty(name="Impact at frame", default=100.0, description="When the first impact happens")
     physics: EnumProperty(name="After the impact", default="KEYS",
                           items=[("KEYS", "Reconstruction", "Keyframes throughout"),
-                                 ("SIMULATION", "Simulation", "Blender's rigid bodies take over shortly before the impact")])
+                                 ("SIMULATION", "Simulation", "Blender's rigid bodies take over shortly after the last impact")])
     clip: BoolProperty(name="Clip behind the camera", default=True)
 
 
