@@ -11,6 +11,7 @@ import subprocess
 import tempfile
 import unittest
 
+import jsonschema
 import numpy
 
 HERE = pathlib.Path(__file__).parent
@@ -81,6 +82,11 @@ class Staging(unittest.TestCase):
             self.assertTrue(found, names)
             self.assertLess(abs(found[0]["time"] - time), 1e-3)
             self.assertLess(abs(found[0]["restitution"] - 0.6), 0.01)
+
+    def test_the_result_follows_the_schema(self):
+        schema = json.loads((ROOT / "docs/schema/stage.schema.json").read_text())
+        jsonschema.Draft202012Validator.check_schema(schema)
+        jsonschema.Draft202012Validator(schema).validate(self.result)
 
     def test_usd_has_the_poses_of_the_result(self):
         text = (self.folder / "shot/scene.usda").read_text()
