@@ -87,6 +87,13 @@ void close_gap(StageState& a, const Solid& solid_a, StageState& b, const Solid& 
                              near->gap > 0 ? "miss each other" : "overlap", 1e3 * std::abs(near->gap)));
 }
 
+/// Other shapes touch elsewhere: what was estimated says nothing of them.
+Vec3 rub_of(const StagedCollision& c) {
+  const Impact& impact = c.result.impacts.front();
+  if (c.swaps[0] || c.swaps[1]) return Vec3::Zero();
+  return impact.impulse - impact.normal.dot(impact.impulse) * impact.normal;
+}
+
 /// What is fixed passes through where the body touches it.
 Wall wall_from(const StagedCollision& c, int collision, const CastActor& a) {
   Wall wall;
@@ -103,7 +110,7 @@ void add_collision(Cast& cast, const StagePlan& plan, int index, Context& contex
   const int first = static_cast<int>(cast.actors.size());
   cast.actors.push_back(actor_from(c, index, 0));
   CastActor& a = cast.actors.back();
-  CastPair pair = {first, first + 1, restitution_of(c.result), c.result.impacts.front().friction.value_or(0.0), c.time, -1};
+  CastPair pair = {first, first + 1, restitution_of(c.result), c.result.impacts.front().friction.value_or(0.0), c.time, -1, rub_of(c)};
   if (c.result.fixed.empty()) {
     CastActor b = actor_from(c, index, 1);
     close_gap(a.impact, a.solid, b.impact, b.solid, c.name, context);
@@ -160,6 +167,8 @@ void place(Cast& cast, const StagePlan& plan, int collision, const Vec3& transla
   at = {translate, turn, T};
   for (CastActor& a : cast.actors)
     if (a.collision == collision) move(a.impact, change);
+  for (CastPair& pair : cast.pairs)
+    if (pair.meeting < 0 && cast.actors[static_cast<std::size_t>(pair.a)].collision == collision) pair.rub = change.rotation * pair.rub;
   for (Wall& w : cast.walls)
     if (w.collision == collision) {
       w.plane.normal = change.rotation * w.plane.normal;

@@ -31,6 +31,7 @@ struct CastPair {
   double restitution = 0, friction = 0;
   double time = 0;   ///< s: when they shall collide
   int meeting = -1;  ///< −1: a collision's own
+  Vec3 rub = Vec3::Zero();  ///< direction of the estimated impulse across the normal; 0 = against the sliding
 };
 
 /// Everything that a simulation starts from.

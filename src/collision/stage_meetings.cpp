@@ -82,7 +82,7 @@ class Arrangement {
 
   CastPair material(const StagedMeeting& meeting, const std::array<int, 2>& who) const {
     const Actor &a = cast_.actors[static_cast<std::size_t>(who[0])].actor, &b = cast_.actors[static_cast<std::size_t>(who[1])].actor;
-    return {who[0], who[1], meeting.restitution.value_or(a.restitution * b.restitution), a.friction * b.friction, meeting.time, -1};
+    return {who[0], who[1], meeting.restitution.value_or(a.restitution * b.restitution), a.friction * b.friction, meeting.time, -1, Vec3::Zero()};
   }
 
   /// Puts the second's collision, turned, to where its body flies straight into the first; true if that happens.

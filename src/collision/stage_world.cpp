@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "collision/rotation.h"
 
@@ -54,7 +55,7 @@ class World : public btDiscreteDynamicsWorld {
     info.m_linearSlop = 0;
     info.m_numIterations = 100;
     info.m_warmstartingFactor = 0;  // warm starting stays on, for it is what writes the impulses back
-    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
+    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
   }
 
   /// Restitution and friction between two.
@@ -98,7 +99,21 @@ class World : public btDiscreteDynamicsWorld {
       p.m_combinedRestitution = restitution;
       p.m_combinedFriction = friction;
       p.m_appliedImpulse = 0;
+      direct_friction(p, pair);
     }
+  }
+
+  /// At the impact that was reconstructed friction acts along the impulse that was estimated: where the sliding turns during an impact,
+  /// Coulomb's law at the end of a step, which is Bullet's, says another direction than at its beginning.
+  void direct_friction(btManifoldPoint& p, const std::pair<int, int>& pair) const {
+    p.m_contactPointFlags &= ~BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+    const auto found = own_.find(pair);
+    if (found == own_.end() || touched_.contains(pair)) return;
+    const Vec3 normal = vec(p.m_normalWorldOnB), across = found->second->rub - normal.dot(found->second->rub) * normal;
+    if (!(across.norm() > 1e-9)) return;
+    p.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+    p.m_lateralFrictionDir1 = bullet(Vec3(across.normalized()));
+    p.m_lateralFrictionDir2.setZero();
   }
 
   void note(const btPersistentManifold& m) {
@@ -106,6 +121,7 @@ class World : public btDiscreteDynamicsWorld {
     for (int i = 0; i < m.getNumContacts(); ++i) {
       const btManifoldPoint& p = m.getContactPoint(i);
       if (!(p.m_appliedImpulse > 0)) continue;
+      touched_.insert(key(m));
       Contact& c = contacts_[key(m)];
       c.impulse += p.m_appliedImpulse;
       c.point += p.m_appliedImpulse * 0.5 * vec(p.getPositionWorldOnA() + p.getPositionWorldOnB());
@@ -117,6 +133,7 @@ class World : public btDiscreteDynamicsWorld {
   const Cast& cast_;
   std::map<std::pair<int, int>, const CastPair*> own_;
   std::map<std::pair<int, int>, Contact> contacts_;
+  std::set<std::pair<int, int>> touched_;  ///< so far
 };
 
 /// The simulation under way. Between contacts a body's angular momentum is constant (Bullet's own step would lose some), and its

@@ -101,7 +101,8 @@ TEST_P(Resimulated, KeepsRestitutionAndPath) {
 INSTANTIATE_TEST_SUITE_P(Stage, Resimulated,
                          testing::Values(std::tuple("boxes", 1, 0.3, 0.0), std::tuple("boxes", 2, 0.8, 0.0), std::tuple("boxes", 3, 0.6, 0.3),
                                          std::tuple("box-ball", 1, 0.5, 0.2), std::tuple("balls", 1, 0.9, 0.0), std::tuple("offcentre", 1, 0.7, 0.0),
-                                         std::tuple("spin", 1, 0.6, 0.0), std::tuple("mesh", 1, 0.6, 0.0), std::tuple("box-floor", 1, 0.5, 0.0)));
+                                         std::tuple("spin", 1, 0.6, 0.0), std::tuple("spin", 1, 0.25, 0.3), std::tuple("mesh", 1, 0.6, 0.0),
+                                         std::tuple("mesh", 3, 0.35, 0.3), std::tuple("boxes", 2, 0.3, 0.3), std::tuple("box-floor", 1, 0.5, 0.0)));
 
 /// Three pairs side by side; of two of them a body each meets again.
 StagePlan three_pairs() {
