@@ -24,6 +24,7 @@ Command add_planes(CLI::App& app, const std::string& shell_command);
 Command add_cuboids(CLI::App& app, const std::string& shell_command);
 Command add_collision(CLI::App& app, const std::string& shell_command);
 Command add_convert(CLI::App& app);
+Command add_stage(CLI::App& app);
 Command add_view(CLI::App& app);
 Command add_synth_planes(CLI::App& synth);
 Command add_synth_cuboids(CLI::App& synth);

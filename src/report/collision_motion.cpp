@@ -70,9 +70,13 @@ Motion motion_of(const Reconstruction& r, int body, double gravity) {
     const Impact& impact = r.impacts[i];
     if (impact.between[0] == body || impact.between[1] == body) insert(motion, impact.time, state_at(r, body, i, frames, gravity));
   }
+  keep_signs(motion);
+  return motion;
+}
+
+void keep_signs(Motion& motion) {
   for (std::size_t i = 1; i < motion.rotations.size(); ++i)
     if (motion.rotations[i].dot(motion.rotations[i - 1]) < 0.0) motion.rotations[i].coeffs() *= -1.0;
-  return motion;
 }
 
 std::vector<Vec3> fixed_quad(const Shot& shot, const Reconstruction& r) {
@@ -86,16 +90,22 @@ std::vector<Vec3> fixed_quad(const Shot& shot, const Reconstruction& r) {
   } else {
     return {};
   }
-  const Vec3 u = any_orthogonal(plane.normal), v = plane.normal.cross(u);
-  Eigen::AlignedBox2d reach;
-  const auto extend = [&](const Vec3& p) { reach.extend(Vec2(u.dot(p), v.dot(p))); };
+  std::vector<Vec3> points;
   for (const FramePose& f : r.frames)
     for (const auto& body : f.bodies)
-      if (body) extend(body->p);
-  for (const Impact& impact : r.impacts) extend(impact.contact_point);
-  if (reach.isEmpty()) return {};
-  double margin = 0.1 * reach.sizes().norm();
+      if (body) points.push_back(body->p);
+  for (const Impact& impact : r.impacts) points.push_back(impact.contact_point);
+  double margin = 0;
   for (const Body& body : shot.bodies) margin = std::max(margin, 2.0 * largest_extent(body));
+  return quad_below(plane, points, margin);
+}
+
+std::vector<Vec3> quad_below(const Plane& plane, const std::vector<Vec3>& points, double margin) {
+  const Vec3 u = any_orthogonal(plane.normal), v = plane.normal.cross(u);
+  Eigen::AlignedBox2d reach;
+  for (const Vec3& p : points) reach.extend(Vec2(u.dot(p), v.dot(p)));
+  if (reach.isEmpty()) return {};
+  margin = std::max(margin, 0.1 * reach.sizes().norm());
   const Vec2 low = reach.min() - Vec2::Constant(margin), high = reach.max() + Vec2::Constant(margin);
   const auto corner = [&](double a, double b) { return Vec3(a * u + b * v + plane.offset * plane.normal); };
   return {corner(low.x(), low.y()), corner(high.x(), low.y()), corner(high.x(), high.y()), corner(low.x(), high.y())};

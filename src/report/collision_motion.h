@@ -21,6 +21,12 @@ struct Motion {
 
 Motion motion_of(const collision::Reconstruction& r, int body, double gravity);
 
+/// Makes neighbouring quaternions have the same sign.
+void keep_signs(Motion& motion);
+
+/// Four corners of a plane, as wide as the points above it need it and `margin` beyond; none without points.
+std::vector<Vec3> quad_below(const Plane& plane, const std::vector<Vec3>& points, double margin);
+
 /// Four corners of what is fixed, in the world, as wide as the flights need it; none if nothing is known of it.
 std::vector<Vec3> fixed_quad(const collision::Shot& shot, const collision::Reconstruction& r);
 
