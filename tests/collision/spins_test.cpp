@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -68,7 +69,7 @@ void add_span(Filmed& f, int body, bool after) {
 Filmed film(const SynthOptions& options, const std::string& name) {
   Filmed f;
   f.scene = simulate(options);
-  const std::string path = testing::TempDir() + name;
+  const std::string path = testing::TempDir() + std::to_string(::getpid()) + name;  // tests run side by side
   Context context;
   io::VideoFile video(path, options.width, options.height, options.fps);
   render(f.scene, options, context, [&](int, const std::vector<std::uint8_t>& bgr) { video.add(bgr); });
@@ -87,8 +88,8 @@ SynthOptions small(const std::string& scene, int seed) {
   SynthOptions options;
   options.scene = scene;
   options.seed = seed;
-  options.width = 480;
-  options.height = 270;
+  options.width = 640;
+  options.height = 360;
   options.fps = 60;
   options.frames = 36;
   return options;
