@@ -27,7 +27,9 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
     if (!shot.fps) throw InputError(shot.name, "fps", "nothing", "the frame rate of the observations");
     evidence.fps = *shot.fps;
     evidence.camera = complete_camera(shot, 0, 0);
-    evidence.tracks = find_tracks(shot, evidence.camera, shot.observations, evidence.fps, context);
+    std::vector<Sighting> sightings = shot.observations;
+    if (shot.frames) std::erase_if(sightings, [&](const Sighting& s) { return s.frame < (*shot.frames)[0] || s.frame > (*shot.frames)[1]; });
+    evidence.tracks = find_tracks(shot, evidence.camera, sightings, evidence.fps, context);
     return evidence;
   }
   {

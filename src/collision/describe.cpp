@@ -62,11 +62,6 @@ struct Teller {
   }
 };
 
-std::size_t best_of(const std::vector<SolvedImpact>& impacts) {
-  const auto rank = [](const SolvedImpact& i) { return std::pair(!i.check.fits, i.uncertain.restitution.sd); };
-  return static_cast<std::size_t>(std::min_element(impacts.begin(), impacts.end(), [&](const auto& a, const auto& b) { return rank(a) < rank(b); }) - impacts.begin());
-}
-
 /// What the data hardly tell, in words.
 std::vector<std::string> observability(const SolvedImpact& impact, const Shot& shot) {
   std::vector<std::string> remarks;
@@ -134,8 +129,7 @@ RigidTransform world_of(const Vec3& down, bool planar) {
 }
 
 void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vector<SolvedImpact>& impacts, Reconstruction& result) {
-  const std::size_t best = best_of(impacts);
-  const SolvedImpact& first = impacts[best];
+  const SolvedImpact& first = impacts.front();
   const Problem& problem = first.solution.problem;
   const State& state = first.solution.fit.state;
   result.T_world_camera = world_of(state.down, problem.planar);
@@ -172,7 +166,7 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
     body.name = shot.bodies[o].name;
     body.fixed = o == 1 && problem.fixed;
     body.inertia = problem.solids[o].mass.inertia;
-    if (!body.fixed) body.before = tellers[best].body_at(o, false, state.time), body.after = tellers[best].body_at(o, true, state.time);
+    if (!body.fixed) body.before = tellers.front().body_at(o, false, state.time), body.after = tellers.front().body_at(o, true, state.time);
     result.bodies.push_back(body);
   }
   const StateT<double> s = values_of(problem, state);

@@ -21,7 +21,7 @@ struct SolvedImpact {
 /// Camera to world: z against gravity, y along the camera's forward direction (or the image's up, if that is within 5° of the vertical).
 RigidTransform world_of(const Vec3& down, bool planar);
 
-/// Writes what was solved into the result; `frames` decoded frames take part. The impact that fits best gives the whole shot's values.
+/// Writes what was solved into the result. The first impact gives the whole shot's states; restitution is pooled over all that fit.
 void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vector<SolvedImpact>& impacts, Reconstruction& result);
 
 }  // namespace unseen::collision
