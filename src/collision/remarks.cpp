@@ -62,6 +62,16 @@ void look_for_drag(const Shot& shot, const std::vector<SolvedImpact>& impacts, C
     context.warn(fmt::format("{}: the air slows it down: with drag the flights fit better (χ² falls by {:.0f}); use --drag on", shot.bodies[0].name, 2.0 * saved));
 }
 
+/// Labels come from sizes; sizes that are alike tell little.
+void doubt_labels(const Shot& shot, const SolvedImpact& impact, Reconstruction& result, Context& context) {
+  constexpr double kAlike = 0.15;  // share
+  const auto& solids = impact.solution.problem.solids;
+  if (shot.video.empty() || impact.solution.problem.fixed || !result.mass_ratio) return;
+  if (std::abs(std::log(solids[0].mass.extent / solids[1].mass.extent)) > kAlike) return;
+  context.warn(fmt::format("{} and {} are alike in size: they may have been taken for each other", shot.bodies[0].name, shot.bodies[1].name));
+  result.ambiguous.push_back({"the two bodies taken for each other", impact.uncertain.restitution.value, 1.0 / result.mass_ratio->value, 0.0});
+}
+
 }  // namespace
 
 void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context) {
@@ -70,7 +80,8 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
   if (footage.moving_camera) context.warn("the camera moves more than can be undone; film from a tripod");
 }
 
-void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, const Reconstruction& result, Context& context) {
+void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
+  doubt_labels(shot, impacts.front(), result, context);
   compare_scales(shot, impacts, context);
   look_for_drag(shot, impacts, context);
   if (result.fixed.empty() && tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));

@@ -13,7 +13,7 @@ namespace unseen::collision {
 void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context);
 
 /// Warns where size and gravity tell of different scales, where the air seems to slow a body down, of several collisions, and says why the
-/// model does not fit.
-void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, const Reconstruction& result, Context& context);
+/// model does not fit. Two bodies of a film that look alike in size may have been taken for each other: the result then has that as another solution.
+void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context);
 
 }  // namespace unseen::collision
