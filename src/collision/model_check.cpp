@@ -13,6 +13,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kMostChi2 = 3.0;
+constexpr double kMostEnergy = 1.005;  // of that before: bounds are soft, so a little more than 1 is none
 constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
 constexpr double kLopsided = 0.01;    // of the projected size: blur, shade and shadow shift a region's centroid by so much
 constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
@@ -88,6 +89,9 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
   if (check.held_out_chi2 > kMostChi2)
     check.reasons.push_back(fmt::format("frames that were held out are {:.1f} px off, where the tracks' own noise is {:.1f} px", check.held_out_rms, noise));
   for (std::string& trend : trends(problem, off, noise)) check.reasons.push_back(std::move(trend));
+  const StateT<double> s = values_of(problem, solution.fit.state);
+  const double kept = kinetic_energy<double>(problem, s, true) / kinetic_energy<double>(problem, s, false);
+  if (kept > kMostEnergy) check.reasons.push_back(fmt::format("the impact would add energy ({:.1f} % kept)", 100.0 * kept));
   check.fits = check.reasons.empty();
   return check;
 }

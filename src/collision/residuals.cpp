@@ -163,7 +163,8 @@ struct TouchTerm : Base {
   Proximity touch;
   std::array<Vec3, 2> local;  // the surface points in the principal frames
   double sigma;               // m
-  bool has_point;             // the contact point is one of the unknowns
+  bool has_point;             // the contact point counts: it is one of the unknowns or, of a ball off something fixed, held where the
+                              // linear start has it, since motion along the view ray is hardly seen there
 
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
@@ -329,7 +330,7 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
     adder.add("touch", TouchTerm{base, *touch,
                                     {reference.q[0].conjugate() * (touch->point_a - reference.p[0]),
                                      reference.q[1].conjugate() * (touch->point_b - reference.p[1])},
-                                    touch_sigma(problem), problem.turns(0) || problem.turns(1)});
+                                    touch_sigma(problem), problem.fixed || problem.turns(0) || problem.turns(1)});
   else
     adder.add("midpoint", MidpointTerm{base});
   if (terms.soft) {
