@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "collision/clip.h"
 #include "collision/overlay_draw.h"
 #include "unseen/core/error.h"
 
@@ -51,18 +52,16 @@ OverlayPicture picture_of(const cv::Mat& frame, double time) {
 std::vector<OverlayPicture> write_overlay(const Shot& shot, const Reconstruction& r, const std::filesystem::path& video, Context& context) {
   constexpr double kFast = 60.0, kSlow = 30.0;  // frames/s
   if (shot.video.empty() || r.frames.empty() || !(r.fps > 0)) return {};
-  cv::VideoCapture clip(shot.video, cv::CAP_FFMPEG);
-  if (!clip.isOpened()) throw InputError(shot.video, "", "no video that can be decoded", "a video");
+  Clip clip(shot.video);
   const OverlayPen pen(shot, r);
   const std::array<int, 2> range = shown_frames(shot, r);
   const PictureChoice choice = choose_pictures(r, range);
   std::vector<OverlayPicture> pictures;
   cv::VideoWriter writer;
   cv::Mat frame;
-  for (int f = 0; f <= range[1] && clip.grab(); ++f) {
+  for (int f = 0; f <= range[1] && clip.next(frame); ++f) {
     context.progress(static_cast<double>(f) / (range[1] + 1));
     if (f < range[0]) continue;
-    if (!clip.retrieve(frame) || frame.empty()) continue;
     pen.draw(f, frame);
     if (!video.empty() && !writer.isOpened() &&
         !writer.open(video.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), r.fps > kFast ? kSlow : r.fps, frame.size()))

@@ -6,26 +6,17 @@
 #include <limits>
 
 #include "collision/contact.h"
+#include "collision/views.h"
 
 namespace unseen::collision {
 namespace {
 
 constexpr std::size_t kMostVertices = 64;  // of a hull: contacts between rounder shapes differ by less than is ever seen
 
-/// The `count` directions of a Fibonacci spiral over the sphere.
-std::vector<Vec3> directions(int count) {
-  std::vector<Vec3> all;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1.0 - (2.0 * i + 1.0) / count, r = std::sqrt(1.0 - z * z), turn = kPi * (3.0 - std::sqrt(5.0)) * i;
-    all.push_back({r * std::cos(turn), r * std::sin(turn), z});
-  }
-  return all;
-}
-
 std::vector<Vec3> thinned(const std::vector<Vec3>& vertices) {
   if (vertices.size() <= kMostVertices) return vertices;
   std::vector<char> kept(vertices.size(), 0);
-  for (const Vec3& d : directions(2 * static_cast<int>(kMostVertices))) {
+  for (const Vec3& d : sphere_directions(2 * static_cast<int>(kMostVertices))) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < vertices.size(); ++i)
       if (vertices[i].dot(d) > vertices[best].dot(d)) best = i;

@@ -14,18 +14,6 @@ Json estimate_of(const Estimate& e) {
   return {{"value", number(e.value)}, {"sd", number(e.sd)}, {"low", number(e.low)}, {"high", number(e.high)}};
 }
 
-Json impact_of(const Impact& i, const std::vector<BodyResult>& bodies) {
-  return {{"time", number(i.time)},
-          {"frame", number(i.frame)},
-          {"restitution", estimate_of(i.restitution)},
-          {"tangential_restitution", or_null(i.tangential_restitution, number)},
-          {"friction", or_null(i.friction, number)},
-          {"impulse", vector_of(i.impulse)},
-          {"contact_point", vector_of(i.contact_point)},
-          {"normal", vector_of(i.normal)},
-          {"between", {bodies.at(i.between[0]).name, bodies.at(i.between[1]).name}}};
-}
-
 Json body_of(const BodyResult& b) {
   if (b.fixed) return {{"name", b.name}, {"fixed", true}};
   return {{"name", b.name}, {"inertia", vector_of(b.inertia)}, {"before", state_of(b.before)}, {"after", state_of(b.after)}};
@@ -62,7 +50,7 @@ std::string collision_json(const Reconstruction& r, const InputRecord& input, co
   json["T_world_camera"] = matrix_of(r.T_world_camera);
   json["camera"] = camera_of(r.camera);
   json["fps"] = number(r.fps);
-  json["impacts"] = list_of(r.impacts, [&](const Impact& i, std::size_t) { return impact_of(i, r.bodies); });
+  json["impacts"] = list_of(r.impacts, [&](const Impact& i, std::size_t) { return impact_of(i, estimate_of(i.restitution), {r.bodies.at(0).name, r.bodies.at(1).name}); });
   json["restitution"] = or_null(r.restitution, estimate_of);
   json["mass_ratio"] = or_null(r.mass_ratio, estimate_of);
   json["fixed"] = r.fixed.empty() ? Json(nullptr) : Json(r.fixed);

@@ -20,6 +20,18 @@ Json camera_of(const Camera& c) {
   return {{"fx", number(c.fx)}, {"fy", number(c.fy)}, {"cx", number(c.cx)}, {"cy", number(c.cy)}, {"width", c.width}, {"height", c.height}};
 }
 
+Json impact_of(const collision::Impact& i, Json restitution, const std::array<std::string, 2>& names) {
+  return {{"time", number(i.time)},
+          {"frame", number(i.frame)},
+          {"restitution", std::move(restitution)},
+          {"tangential_restitution", or_null(i.tangential_restitution, number)},
+          {"friction", or_null(i.friction, number)},
+          {"impulse", vector_of(i.impulse)},
+          {"contact_point", vector_of(i.contact_point)},
+          {"normal", vector_of(i.normal)},
+          {"between", {names.at(i.between[0]), names.at(i.between[1])}}};
+}
+
 std::optional<double> read_number_or_null(const JsonField& json) {
   if (json.is_null()) return std::nullopt;
   return json.number();

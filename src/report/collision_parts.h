@@ -21,6 +21,8 @@ Json or_null(const std::optional<T>& value, Write write) {
 Json quaternion_of(const collision::Quat& q);
 Json state_of(const collision::BodyState& s);
 Json camera_of(const Camera& c);
+/// An impact between two of the `names`, with its restitution as given.
+Json impact_of(const collision::Impact& i, Json restitution, const std::array<std::string, 2>& names);
 
 std::optional<double> read_number_or_null(const JsonField& json);
 /// Of length 1 within 1e-6.

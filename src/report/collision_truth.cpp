@@ -32,18 +32,6 @@ Json bodies_of(const std::vector<Body>& bodies) {
 /// In the form of a result's estimates.
 Json exactly(double value) { return {{"value", number(value)}, {"sd", 0.0}}; }
 
-Json impact_of(const Impact& i, const std::vector<Body>& bodies) {
-  return {{"time", number(i.time)},
-          {"frame", number(i.frame)},
-          {"restitution", exactly(i.restitution.value)},
-          {"tangential_restitution", or_null(i.tangential_restitution, number)},
-          {"friction", or_null(i.friction, number)},
-          {"impulse", vector_of(i.impulse)},
-          {"contact_point", vector_of(i.contact_point)},
-          {"normal", vector_of(i.normal)},
-          {"between", {bodies.at(i.between[0]).name, bodies.at(i.between[1]).name}}};
-}
-
 Json frame_of(const FramePose& f) {
   Json json = {{"frame", f.frame}, {"t", number(f.time)}};
   for (int b = 0; b < 2; ++b)
@@ -60,7 +48,7 @@ std::string collision_truth_json(const Truth& truth, const OptionTable& options)
   json["camera"] = camera_of(truth.camera);
   json["fps"] = number(truth.fps);
   json["bodies"] = bodies_of(truth.bodies);
-  json["impacts"] = list_of(truth.impacts, [&](const Impact& i, std::size_t) { return impact_of(i, truth.bodies); });
+  json["impacts"] = list_of(truth.impacts, [&](const Impact& i, std::size_t) { return impact_of(i, exactly(i.restitution.value), {truth.bodies.at(0).name, truth.bodies.at(1).name}); });
   json["restitution"] = or_null(truth.restitution, exactly);
   json["mass_ratio"] = or_null(truth.mass_ratio, exactly);
   json["frames"] = list_of(truth.frames, [](const FramePose& f, std::size_t) { return frame_of(f); });
