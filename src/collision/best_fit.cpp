@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAlike = 3.0;           // ½ χ² by which another solution may be worse and still explains the data alike
 constexpr double kOtherValue = 0.05;     // of restitution, or as a share of the mass ratio: less is no other solution
-constexpr double kLeastOrientation = 0.01;  // rad
+constexpr double kLeastOrientation = 0.002;  // rad
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -23,8 +23,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The noise as the residuals have it: medians, corrected for the unknowns that the data had to pay for.
-void estimate_noise(Problem& problem, const State& state) {
+/// The noise as the residuals have it: medians, corrected for the unknowns that the data had to pay for. `expected` is the problem as it came.
+void estimate_noise(const Problem& expected, Problem& problem, const State& state) {
   const StateT<double> s = values_of(problem, state);
   std::vector<double> pixels, angles;
   for (const PointObservation& seen : problem.points) {
@@ -37,71 +37,107 @@ void estimate_noise(Problem& problem, const State& state) {
     for (int i = 0; i < 3; ++i) angles.push_back(std::abs(off[i]));
   }
   constexpr double kToSigma = 1.4826, kUnknownsOfFlights = 18.0, kUnknownsOfTurning = 14.0;
-  const auto paid = [](std::size_t count, double unknowns) { return std::sqrt(static_cast<double>(count) / std::max(4.0, static_cast<double>(count) - unknowns)); };
-  constexpr double kMost = 3.0;  // times what was expected: more is no noise but a fit that failed
-  problem.pixel_sigma = std::clamp(kToSigma * median(pixels) * paid(pixels.size(), kUnknownsOfFlights), 0.02, kMost * problem.pixel_sigma);
+  const auto free = [](std::size_t count, double unknowns) { return std::max(4.0, static_cast<double>(count) - unknowns); };
+  const auto sigma = [&](const std::vector<double>& off, double unknowns) {
+    return kToSigma * median(off) * std::sqrt(static_cast<double>(off.size()) / free(off.size(), unknowns));
+  };
+  constexpr double kMostPixels = 3.0, kMostAngle = 8.0;  // times what was expected: more is no noise but a fit that failed
+  problem.pixel_sigma = std::clamp(sigma(pixels, kUnknownsOfFlights), 0.02, kMostPixels * expected.pixel_sigma);
+  if (angles.empty() || !problem.terms.orientation || !problem.scattered) return;
   // few orientations cannot tell their noise: what was expected counts as so many more
-  constexpr double kExpected = 24.0;
-  if (angles.empty() || !problem.terms.orientation) return;
-  const double expected = problem.orientation_sigma, seen = kToSigma * median(angles) * paid(angles.size(), kUnknownsOfTurning), count = static_cast<double>(angles.size());
-  problem.orientation_sigma = std::clamp(std::sqrt((kExpected * expected * expected + count * seen * seen) / (kExpected + count)), kLeastOrientation, kMost * expected);
+  constexpr double kExpected = 3.0;
+  const double seen = std::max(kLeastOrientation, sigma(angles, kUnknownsOfTurning)), count = free(angles.size(), kUnknownsOfTurning);
+  problem.orientation_sigma = std::min(kMostAngle * expected.orientation_sigma,
+                                       std::exp((kExpected * std::log(expected.orientation_sigma) + count * std::log(seen)) / (kExpected + count)));
 }
 
-std::vector<Alternative> alternatives(const Problem& problem, const std::vector<Fit>& fits, const Fit& best) {
+/// A solution with its own noise.
+struct Candidate {
+  Problem problem;
+  Fit fit;
+  double score = 0;  ///< −log likelihood: ½ χ² alone would favour whoever has the larger noise
+};
+
+double score_of(const Problem& problem, const Fit& fit) {
+  const double pixels = 2.0 * static_cast<double>(problem.points.size()), angles = 3.0 * static_cast<double>(problem.orientations.size());
+  return fit.cost + pixels * std::log(problem.pixel_sigma) + angles * std::log(problem.orientation_sigma);
+}
+
+std::vector<Alternative> alternatives(const std::vector<Candidate>& candidates) {
   std::vector<Alternative> others;
-  const auto values = [&](const Fit& fit) {
-    const StateT<double> s = values_of(problem, fit.state);
-    return std::pair{restitution<double>(problem, fit.state, s), fit.state.mass_ratio};
+  const auto values = [](const Candidate& c) {
+    return std::pair{restitution<double>(c.problem, c.fit.state, values_of(c.problem, c.fit.state)), c.fit.state.mass_ratio};
   };
-  std::vector<std::pair<double, double>> known = {values(best)};
-  for (const Fit& fit : fits) {
-    if (!fit.usable || fit.cost > best.cost + kAlike) continue;
-    const auto [c, m] = values(fit);
+  std::vector<std::pair<double, double>> known = {values(candidates.front())};
+  for (const Candidate& candidate : candidates) {
+    const double excess = candidate.score - candidates.front().score;
+    if (excess > kAlike) break;
+    const auto [c, m] = values(candidate);
     if (std::any_of(known.begin(), known.end(), [&, c = c, m = m](const auto& k) {
           return std::abs(k.first - c) < kOtherValue && std::abs(k.second / m - 1.0) < kOtherValue;
         }))
       continue;
     known.push_back({c, m});
-    others.push_back({fmt::format("other turning explains the data alike: c = {:.2f}, mass ratio {:.2f}", c, m), c, m, 2.0 * (fit.cost - best.cost)});
+    others.push_back({fmt::format("other turning explains the data alike: c = {:.2f}, mass ratio {:.2f}", c, m), c, m, 2.0 * excess});
   }
   return others;
 }
 
-/// Each state's fit; those that end far above the best are left out.
-std::vector<Fit> fits_from(const Problem& problem, const std::vector<State>& from, Fit (*step)(const Problem&, const State&), double worse, Context& context) {
-  std::vector<Fit> fits(from.size());
-  parallel_blocks(context, from.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) fits[i] = step(problem, from[i]);
+/// Runs `step` on each; those that fail or end far above the best are left out.
+template <class Step>
+void advance(std::vector<Candidate>& candidates, double worse, Context& context, const Step& step) {
+  parallel_blocks(context, candidates.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Candidate& c = candidates[i];
+      c.fit = step(c);
+      c.score = score_of(c.problem, c.fit);
+    }
   });
   context.check();
-  std::erase_if(fits, [](const Fit& fit) { return !fit.usable; });
-  std::stable_sort(fits.begin(), fits.end(), [](const Fit& a, const Fit& b) { return a.cost < b.cost; });
-  if (!fits.empty()) std::erase_if(fits, [limit = fits.front().cost + worse](const Fit& fit) { return fit.cost > limit; });
-  return fits;
+  std::erase_if(candidates, [](const Candidate& c) { return !c.fit.usable; });
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+  if (!candidates.empty()) std::erase_if(candidates, [limit = candidates.front().score + worse](const Candidate& c) { return c.score > limit; });
 }
 
-std::vector<State> states_of(const std::vector<Fit>& fits) {
-  std::vector<State> states;
-  for (const Fit& fit : fits) states.push_back(fit.state);
-  return states;
+/// Orientations may be much better than expected; then other starts lead on.
+void add_exact_orientations(std::vector<Candidate>& candidates) {
+  constexpr double kBetter = 0.15;
+  const std::size_t count = candidates.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (candidates[i].problem.orientations.empty() || !candidates[i].problem.scattered) return;
+    candidates.push_back(candidates[i]);
+    candidates.back().problem.orientation_sigma *= kBetter;
+  }
 }
 
 }  // namespace
 
-Solution best_fit(Problem problem, double time, int starts, Context& context) {
-  constexpr double kHopeless = 40.0, kPoor = 15.0;  // ½ χ² above the best, before and after the shapes were made to touch
-  Solution solution;
-  std::vector<Fit> fits = fits_from(problem, start_states(problem, time, starts), approach, kHopeless, context);
-  fits = fits_from(problem, states_of(fits), settle, kPoor, context);
-  if (!fits.empty()) {
-    estimate_noise(problem, fits.front().state);
-    const std::vector<Fit> again = fits_from(problem, states_of(fits), settle, kPoor, context);
-    if (!again.empty()) fits = again;
-    solution.fit = fits.front();
-    solution.others = alternatives(problem, fits, fits.front());
+Solution best_fit(const Problem& problem, double time, int starts, Context& context) {
+  constexpr double kHopeless = 40.0, kPoor = 15.0, kUnlikely = 30.0;  // above the best: as found, with touching shapes, with their own noise
+  constexpr double kFarOff = 300.0;
+  constexpr std::size_t kTried = 12;
+  constexpr int kNoiseRounds = 3;
+  std::vector<Candidate> candidates;
+  for (const State& state : start_states(problem, time, starts)) {
+    candidates.push_back({problem, {}, 0.0});
+    candidates.back().fit.state = state;
   }
-  solution.problem = std::move(problem);
-  return solution;
+  if (problem.touches()) {
+    add_exact_orientations(candidates);
+    advance(candidates, kFarOff, context, [](const Candidate& c) { return try_out(c.problem, c.fit.state); });
+    if (candidates.size() > kTried) candidates.erase(candidates.begin() + kTried, candidates.end());
+  } else {
+    advance(candidates, kHopeless, context, [](const Candidate& c) { return approach(c.problem, c.fit.state); });
+  }
+  advance(candidates, kPoor, context, [](const Candidate& c) { return settle(c.problem, c.fit.state); });
+  for (int round = 0; round < kNoiseRounds; ++round)
+    advance(candidates, kUnlikely, context, [&](Candidate& c) {
+      estimate_noise(problem, c.problem, c.fit.state);
+      return settle(c.problem, c.fit.state);
+    });
+  if (candidates.empty()) return {problem, {}, {}, 0.0};
+  const Candidate& best = candidates.front();
+  return {best.problem, best.fit, alternatives(candidates), best.score};
 }
 
 }  // namespace unseen::collision

@@ -14,9 +14,10 @@ struct Solution {
   Problem problem;
   Fit fit;
   std::vector<Alternative> others;
+  double score = 0;  ///< −log likelihood, to compare solutions whose noise differs
 };
 
 /// Solves from `starts` starts around `time` and keeps the lowest. `fit.usable` is false if none led anywhere.
-Solution best_fit(Problem problem, double time, int starts, Context& context);
+Solution best_fit(const Problem& problem, double time, int starts, Context& context);
 
 }  // namespace unseen::collision

@@ -11,47 +11,55 @@ namespace {
 
 constexpr double kRidge = 1e-4;  // per m/s: keeps a velocity that nothing was seen of small
 
-using Row = Eigen::Matrix<double, 1, 9>;  // P, V before, V after
+constexpr int kAll = LinearFlight::kUnknowns;
+using Row = Eigen::Matrix<double, 1, kAll>;  // P, V before, V after, delay
+using Column = Eigen::Matrix<double, kAll, 1>;
 
 struct System {
-  Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
-  Eigen::Matrix<double, 9, 1> right = Eigen::Matrix<double, 9, 1>::Zero();
+  Eigen::Matrix<double, kAll, kAll> normal = Eigen::Matrix<double, kAll, kAll>::Zero();
+  Column right = Column::Zero();
   void add(const Row& row, double value, double weight) {
     normal += weight * row.transpose() * row;
     right += weight * value * row.transpose();
   }
 };
 
-/// Coefficients of coordinate `axis` of the place at τ.
-Row coordinate(int axis, double tau, bool after) {
+/// Coefficients of coordinate `axis` of the place at τ; a later impact moves both flights back by their velocities, which are those of `near`.
+Row coordinate(int axis, double tau, bool after, const Column& near) {
   Row row = Row::Zero();
+  const int velocity = 3 + axis + (after ? 3 : 0);
   row[axis] = 1.0;
-  row[3 + axis + (after ? 3 : 0)] = tau;
+  row[velocity] = tau;
+  row[kAll - 1] = -near[velocity];
   return row;
 }
 
 }  // namespace
 
 std::optional<LinearFlight> linear_flight(const Problem& problem, int body, double time) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 12, kAlgebraic = 2;
   const Camera& c = problem.camera;
   const Vec3 g = problem.gravity * problem.down;
-  Eigen::Matrix<double, 9, 1> solution = Eigen::Matrix<double, 9, 1>::Zero();
+  Column solution = Column::Zero();
+  System system;
   bool seen = false;
   for (int round = 0; round < kRounds; ++round) {
-    System system;
+    system = System();
     for (const PointObservation& point : problem.points) {
       if (point.body != body) continue;
       seen = true;
       const double tau = point.time - time, half = 0.5 * tau * tau;
-      const Row z = coordinate(2, tau, point.after);
+      const Row z = coordinate(2, tau, point.after, solution);
       const double depth = round == 0 ? 1.0 : std::max(0.05, z * solution + half * g.z());
-      const double focal[2] = {c.fx, c.fy}, offset[2] = {point.pixel.x() - c.cx, point.pixel.y() - c.cy};
+      const double focal[2] = {c.fx, c.fy}, seen_at[2] = {point.pixel.x() - c.cx, point.pixel.y() - c.cy};
       Row rows[2];
       double values[2], square = 0.0;
       for (int i = 0; i < 2; ++i) {
-        rows[i] = (focal[i] * coordinate(i, tau, point.after) - offset[i] * z) / depth;
-        values[i] = -half * (focal[i] * g[i] - offset[i] * g.z()) / depth;
+        const Row place = coordinate(i, tau, point.after, solution);
+        // first as it is seen; then Gauss–Newton about the place, since noise in the coefficients draws everything nearer
+        const double offset = round < kAlgebraic ? seen_at[i] : focal[i] * (place * solution + half * g[i]) / depth;
+        rows[i] = (focal[i] * place - offset * z) / depth;
+        values[i] = seen_at[i] - offset - half * (focal[i] * g[i] - offset * g.z()) / depth;
         if (round > 0) square += std::pow(rows[i] * solution - values[i], 2);
       }
       const double sigma = problem.pixel_sigma, weight = 1.0 / (sigma * sigma) / std::max(1.0, std::sqrt(square) / (3.0 * sigma));
@@ -64,13 +72,13 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
     for (int i = 3; i < 9; ++i) system.normal(i, i) += kRidge * kRidge;
     if (problem.planar)
       for (const int i : {5, 8}) system.normal(i, i) += 1e6;
-    const Eigen::LDLT<Eigen::Matrix<double, 9, 9>> solver(system.normal);
+    const Eigen::LDLT<Eigen::Matrix<double, kAll - 1, kAll - 1>> solver(system.normal.topLeftCorner<kAll - 1, kAll - 1>());  // at the time given
     if (!seen || solver.info() != Eigen::Success) return std::nullopt;
-    solution = solver.solve(system.right);
+    solution.head<kAll - 1>() = solver.solve(system.right.head<kAll - 1>());
     if (!solution.allFinite()) return std::nullopt;
   }
   if (solution[2] < 0.01) return std::nullopt;
-  return LinearFlight{solution.segment<3>(0), solution.segment<3>(3), solution.segment<3>(6)};
+  return LinearFlight{solution.segment<3>(0), solution.segment<3>(3), solution.segment<3>(6), system.normal, system.right};
 }
 
 }  // namespace unseen::collision

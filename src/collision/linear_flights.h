@@ -8,9 +8,13 @@
 
 namespace unseen::collision {
 
-/// A body's place at the impact and its velocities just before and after. Camera coordinates.
+/// A body's place at the impact and its velocities just before and after, in camera coordinates, and ½ χ² of its centres near there: with y =
+/// (p, v_before, v_after, the impact's delay in s), that is ½ yᵀ·normal·y − right·y and a constant.
 struct LinearFlight {
+  static constexpr int kUnknowns = 10;
   Vec3 p, v_before, v_after;
+  Eigen::Matrix<double, kUnknowns, kUnknowns> normal;
+  Eigen::Matrix<double, kUnknowns, 1> right;
 };
 
 /// From linear equations: fx X − (u − cx) Z = 0 and the like, which known gravity makes inhomogeneous, and the depth from sizes. Robust by

@@ -50,12 +50,17 @@ struct Problem {
   std::vector<OrientationObservation> orientations;
   double pixel_sigma = 1.0;            ///< px
   double orientation_sigma = 0.087;    ///< rad
+  bool scattered = true;               ///< each orientation was seen on its own, so that their scatter tells their noise
   bool friction = true;
   Terms terms;
 
   double inverse_mass(double ratio) const { return fixed ? 0.0 : 1.0 / ratio; }
   /// Whether a body's turning is known from any observation.
   bool turns(int body) const;
+  /// Whether a body's shape is known, and how it is turned as far as that matters.
+  bool has_pose(int body) const { return solids[body].is_sphere() || (solids[body].known_shape && turns(body)); }
+  /// Whether two shapes meet that are both known.
+  bool touches() const { return !fixed && has_pose(0) && has_pose(1); }
 };
 
 /// The unknowns. Momenta are per mass of their own body. The contact point and the impulse are those of the impact.

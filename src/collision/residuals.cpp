@@ -180,6 +180,20 @@ struct TouchTerm : Base {
   }
 };
 
+/// Coulomb: an impulse far off the normal would need uncommon friction.
+struct FrictionTerm : Base {
+  static constexpr int kResiduals = 3;
+  template <class T>
+  void of_state(const StateT<T>& s, T* r) const {
+    constexpr double kUsual = 0.7;  // coefficient of friction
+    const Vec3& n = *reference.normal;
+    const T along = s.impulse.dot(n.cast<T>());
+    const Vec3T<T> across = s.impulse - n.cast<T>() * along;
+    using std::sqrt;
+    for (int i = 0; i < 3; ++i) r[i] = across[i] / (kUsual * sqrt(s.impulse.squaredNorm() + 1e-12));
+  }
+};
+
 /// Gravity-free shots: both bodies move in one plane parallel to the image.
 struct PlanarTerm : Base {
   static constexpr int kResiduals = 5;
@@ -325,6 +339,7 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
   if (terms.gravity && problem.gravity > 0.0) adder.add("gravity", GravityTerm{base});
   if (terms.energy) adder.add("energy", EnergyTerm{base});
   if (terms.restitution) adder.add("restitution", RestitutionTerm{base});
+  if (touch && reference.normal) adder.add("friction", FrictionTerm{base});
   if (problem.planar) adder.add("planar", PlanarTerm{base});
   if (touch)
     adder.add("touch", TouchTerm{base, *touch,

@@ -40,18 +40,16 @@ std::vector<int> held_unknowns(const Problem& problem) {
   return held;
 }
 
-bool has_pose(const Problem& problem, int o) { return problem.solids[o].is_sphere() || (problem.solids[o].known_shape && problem.turns(o)); }
-
 /// Where the shapes meet in this state; nothing where a shape or its orientation is not known.
 std::optional<Proximity> touch_of(const Problem& problem, const State& state) {
   const Solid& a = problem.solids[0];
   const double tolerance = 0.03 * a.mass.extent;
-  if (!has_pose(problem, 0)) return std::nullopt;
+  if (!problem.has_pose(0)) return std::nullopt;
   if (problem.fixed) {
     if (!problem.fixed_normal) return std::nullopt;
     return nearest_to_plane(a, state.p[0], state.q[0], *problem.fixed_normal, tolerance);
   }
-  if (!has_pose(problem, 1)) return std::nullopt;
+  if (!problem.has_pose(1)) return std::nullopt;
   return nearest(a, state.p[0], state.q[0], problem.solids[1], state.p[1], state.q[1], tolerance);
 }
 
@@ -173,6 +171,17 @@ Fit approach(const Problem& problem, const State& start) {
     if (!descend(apart, std::nullopt, kIterations, fit.state, fit.cost)) fit.state = start;
   }
   fit.usable = descend(free, std::nullopt, kIterations, fit.state, fit.cost);
+  return fit;
+}
+
+Fit try_out(const Problem& problem, const State& start) {
+  constexpr int kIterations = 12;
+  Fit fit;
+  fit.state = start;
+  fit.touch = touch_of(problem, start);
+  fit.state.normal = normal_of(problem, fit.touch);
+  fit.usable = descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
+  fit.state.normal.reset();
   return fit;
 }
 

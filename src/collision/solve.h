@@ -22,6 +22,9 @@ struct Fit {
 /// Down towards the nearest minimum, the contact point somewhere near the middle of the bodies.
 Fit approach(const Problem& problem, const State& start);
 
+/// A few steps down from a state in which the shapes nearly touch: tells which starts are worth settling.
+Fit try_out(const Problem& problem, const State& start);
+
 /// From there, or from a solution of a similar problem, to the minimum with the shapes, if they are known, touching at the impact.
 Fit settle(const Problem& problem, const State& start);
 

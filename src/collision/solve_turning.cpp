@@ -63,6 +63,7 @@ std::vector<Combination> combinations(const std::vector<std::vector<Spin>>& spin
 
 Problem with_orientations(Problem problem, const Combination& combination, const Tracks& tracks, const Tracks::Meeting& meeting) {
   double squares = 0.0;
+  problem.scattered = false;
   for (const Spin* spin : combination.spins)
     for (const Orientation& o : spin->orientations) {
       const bool after = std::find(meeting.after.begin(), meeting.after.end(), spin->span) != meeting.after.end();
@@ -83,7 +84,7 @@ Solution solve_with(const std::vector<std::vector<Spin>>& spins, const SolvedImp
     if (combination.spins.empty()) break;
     const Problem problem = with_orientations(impact.solution.problem, combination, tracks, impact.meeting);
     Solution solution = best_fit(problem, impact.solution.fit.state.time, starts, context);
-    if (solution.fit.usable) solved.emplace_back(solution.fit.cost + 0.5 * combination.cost, std::move(solution));
+    if (solution.fit.usable) solved.emplace_back(solution.score + 0.5 * combination.cost, std::move(solution));
   }
   for (auto& [cost, solution] : solved)
     if (!best.fit.usable || cost < best_cost) best_cost = cost, best = solution;

@@ -57,6 +57,9 @@ SpinGuess refined(const std::vector<const OrientationObservation*>& seen, const 
     j = jacobian(guess);
   }
   guess.cost = 0.5 * r.squaredNorm();
+  Eigen::MatrixXd normal = j.transpose() * j;
+  normal.bottomRightCorner<3, 3>() += Mat3((kFastest * inertia).cwiseAbs2().cwiseInverse().asDiagonal());
+  guess.spread = normal.inverse().bottomRightCorner<3, 3>();
   return guess;
 }
 
@@ -68,7 +71,7 @@ std::vector<SpinGuess> spin_guesses(const Problem& problem, int body, bool after
     if (o.body == body && o.after == after) seen.push_back(&o);
   if (seen.empty() || !problem.terms.orientation) return {};
   const Vec3& inertia = problem.solids[body].mass.inertia;
-  if (seen.size() == 1) return {{seen[0]->q, Vec3::Zero(), 0.0}};
+  if (seen.size() == 1) return {{seen[0]->q, Vec3::Zero(), Mat3((kFastest * inertia).cwiseAbs2().asDiagonal()), 0.0}};
   std::sort(seen.begin(), seen.end(), [](const auto* a, const auto* b) { return a->time < b->time; });
   // the two that are nearest in time leave the fewest turns open
   std::size_t near = 0;
@@ -82,7 +85,7 @@ std::vector<SpinGuess> spin_guesses(const Problem& problem, int body, bool after
     const Vec3 omega = (turn + 2.0 * kPi * turns * axis) / dt;
     if (omega.norm() > kFastest && turns != 0) continue;
     const Quat& q = seen[near]->q;
-    SpinGuess guess{q, q * inertia.cwiseProduct(q.conjugate() * omega), 0.0};
+    SpinGuess guess{q, q * inertia.cwiseProduct(q.conjugate() * omega), Mat3::Zero(), 0.0};
     guess.q = turned<double>(guess.q, guess.h, inertia, seen[0]->time - seen[near]->time);
     guess = refined(seen, inertia, problem.orientation_sigma, guess);
     guess.q = turned<double>(guess.q, guess.h, inertia, time - seen[0]->time);

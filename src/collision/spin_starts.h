@@ -12,6 +12,7 @@ namespace unseen::collision {
 struct SpinGuess {
   Quat q = Quat::Identity();
   Vec3 h = Vec3::Zero();
+  Mat3 spread = Mat3::Zero();  ///< covariance of h
   double cost = 0;  ///< ½ χ² of the orientations
 };
 

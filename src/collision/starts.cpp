@@ -9,6 +9,9 @@
 #include "collision/rotation.h"
 #include "collision/solve.h"
 #include "collision/spin_starts.h"
+#include "collision/touching_fit.h"
+#include "collision/unknowns.h"
+#include "collision/views.h"
 
 namespace unseen::collision {
 namespace {
@@ -19,6 +22,12 @@ struct Turning {
   Vec3 h = Vec3::Zero(), h_after = Vec3::Zero(), lever = Vec3::Zero();
   bool has_lever = false;
   double cost = 0;
+  Mat3 spread = Mat3::Zero(), spread_after = Mat3::Zero();  // covariances of h and h_after
+
+  TouchingFit::Turn turn() const {
+    if (!has_lever) return {};
+    return {h_after - h, Mat3((spread + spread_after).inverse())};
+  }
 };
 
 Quat between(const Quat& a, const Quat& b) { return a.slerp(0.5, b).normalized(); }
@@ -29,7 +38,11 @@ std::vector<Turning> turnings(const Problem& problem, int body, double time, con
   std::vector<Turning> all;
   if (before.empty() && after.empty()) return {Turning{}};
   if (before.empty() || after.empty()) {
-    for (const SpinGuess& guess : before.empty() ? after : before) all.push_back({guess.q, guess.h, guess.h, Vec3::Zero(), false, guess.cost});
+    for (const SpinGuess& guess : before.empty() ? after : before) {
+      Turning t;
+      t.q = guess.q, t.h = t.h_after = guess.h, t.cost = guess.cost;
+      all.push_back(t);
+    }
     return all;
   }
   constexpr double kMeet = 0.35;  // rad: how far extrapolated orientations may be off at the impact
@@ -38,13 +51,39 @@ std::vector<Turning> turnings(const Problem& problem, int body, double time, con
     for (const SpinGuess& b : after) {
       const Vec3 change = b.h - a.h;
       const double meet = rotation_vector<double>(b.q * a.q.conjugate()).norm() / kMeet;
-      Turning t{between(a.q, b.q), a.h, b.h, impulse.cross(change) / square, true, a.cost + b.cost + 0.5 * meet * meet};
+      Turning t{between(a.q, b.q), a.h, b.h, impulse.cross(change) / square, true, a.cost + b.cost + 0.5 * meet * meet, a.spread, b.spread};
       const double along = change.dot(impulse) / std::sqrt(square) / (reach * std::sqrt(square)), beyond = std::max(0.0, t.lever.norm() / reach - 1.0);
       t.cost += 0.5 * (along * along + beyond * beyond) * 100.0;
       all.push_back(t);
     }
   std::stable_sort(all.begin(), all.end(), [](const Turning& a, const Turning& b) { return a.cost < b.cost; });
   return all;
+}
+
+struct Ranked {
+  double cost;
+  State state;
+};
+
+/// Whether two states turn alike and touch in nearly the same way.
+bool alike(const State& a, const State& b) {
+  constexpr double kSameNormal = 0.2, kSameTurn = 0.2;  // rad
+  if (!a.normal || !b.normal || line_angle(*a.normal, *b.normal) > kSameNormal) return false;
+  for (int o = 0; o < 2; ++o)
+    if (a.q[o].angularDistance(b.q[o]) > kSameTurn || (a.h[o] - b.h[o]).norm() > 0.2 * (a.h[o].norm() + b.h[o].norm())) return false;
+  return true;
+}
+
+/// The states of the lowest cost, best first and unlike.
+std::vector<State> best_of(std::vector<Ranked> all, int count) {
+  std::stable_sort(all.begin(), all.end(), [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
+  std::vector<State> states;
+  for (const Ranked& r : all) {
+    if (static_cast<int>(states.size()) == count) break;
+    if (std::none_of(states.begin(), states.end(), [&](const State& s) { return alike(s, r.state); })) states.push_back(r.state);
+  }
+  for (State& s : states) s.normal.reset();
+  return states;
 }
 
 /// The contact point that both levers ask for, and how much they disagree, in body sizes.
@@ -59,38 +98,10 @@ std::pair<Vec3, double> contact_of(const Problem& problem, const State& s, const
   return {middle, 0.0};
 }
 
-}  // namespace
-
-std::vector<State> start_states(const Problem& problem, double time, int count) {
-  State base;
-  base.time = time;
-  base.down = problem.down;
-  for (int o = 0; o < (problem.fixed ? 1 : 2); ++o) {
-    const std::optional<LinearFlight> flight = linear_flight(problem, o, time);
-    if (!flight) return {};
-    base.p[o] = flight->p;
-    base.v[o] = flight->v_before;
-    base.v_after[o] = flight->v_after;
-  }
-  base.impulse = base.v_after[0] - base.v[0];
-  const Vec3 other = base.v_after[1] - base.v[1];
-  base.mass_ratio = problem.mass_ratio ? *problem.mass_ratio : std::clamp(base.impulse.norm() / std::max(1e-6, other.norm()), 0.05, 20.0);
-  base.x = problem.fixed ? base.p[0] : Vec3(0.5 * (base.p[0] + base.p[1]));
-  if (!problem.orientations.empty()) {  // impulse and time first, for what they tell of the turning
-    Problem centers = problem;
-    centers.orientations.clear();
-    const Fit fit = approach(centers, base);
-    if (fit.usable) base = fit.state;
-    time = base.time;
-  }
-  const std::vector<Turning> first = turnings(problem, 0, time, base.impulse);
-  const std::vector<Turning> second = problem.fixed ? std::vector<Turning>{Turning{}} : turnings(problem, 1, time, Vec3(-base.impulse / base.mass_ratio));
-  struct Ranked {
-    double cost;
-    State state;
-  };
-  std::vector<Ranked> all;
+/// Shapes unknown: where the levers say.
+std::vector<Ranked> lever_starts(const Problem& problem, const State& base, const std::vector<Turning>& first, const std::vector<Turning>& second) {
   constexpr double kApart = 0.15;  // of the body's size: how far two levers may disagree
+  std::vector<Ranked> all;
   for (const Turning& a : first)
     for (const Turning& b : second) {
       State s = base;
@@ -101,11 +112,88 @@ std::vector<State> start_states(const Problem& problem, double time, int count) 
       s.h_after = {a.h_after, b.h_after};
       all.push_back({a.cost + b.cost + 0.5 * apart * apart / (kApart * kApart), s});
     }
-  std::stable_sort(all.begin(), all.end(), [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
-  std::vector<State> states;
-  for (const Ranked& r : all)
-    if (static_cast<int>(states.size()) < count) states.push_back(r.state);
-  return states;
+  return all;
+}
+
+/// Momenta on both sides that agree with the impulse's lever.
+void share_change(const Turning& turning, const Vec3& change, Vec3& h, Vec3& h_after) {
+  h = turning.h, h_after = turning.h + change;
+  if (!turning.has_lever) return;
+  h -= turning.spread * (turning.spread + turning.spread_after).inverse() * (change - (turning.h_after - turning.h));
+  h_after = h + change;
+}
+
+/// Both shapes known: all ways in which they can touch, each with the impulse that explains the flights best.
+std::vector<Ranked> touching_starts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights, const std::vector<Turning>& first,
+                                    const std::vector<Turning>& second) {
+  constexpr int kDirections = 256;
+  constexpr std::size_t kTurnings = 6, kPairs = 16;
+  constexpr double kHopeless = 60.0, kBeyond = 0.1;  // ½ χ²; restitution outside [0,1]
+  struct Pair {
+    const Turning *a, *b;
+    double cost() const { return a->cost + b->cost; }
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < std::min(first.size(), kTurnings); ++i)
+    for (std::size_t j = 0; j < std::min(second.size(), kTurnings); ++j) pairs.push_back({&first[i], &second[j]});
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.cost() < b.cost(); });
+  if (pairs.size() > kPairs) pairs.resize(kPairs);
+  const TouchingFit fit(problem, base, flights[0], flights[1]);
+  const std::vector<Vec3> directions = sphere_directions(kDirections);
+  std::vector<Ranked> all;
+  for (const Pair& pair : pairs) {
+    if (pair.cost() > pairs.front().cost() + kHopeless) break;
+    for (const Touching& touching : touchings(problem.solids[0], pair.a->q, problem.solids[1], pair.b->q, directions)) {
+      auto [cost, s] = fit(touching, pair.a->turn(), pair.b->turn());
+      s.q = {pair.a->q, pair.b->q};
+      share_change(*pair.a, touching.arm_a.cross(s.impulse), s.h[0], s.h_after[0]);
+      share_change(*pair.b, Vec3(-touching.arm_b.cross(s.impulse) / s.mass_ratio), s.h[1], s.h_after[1]);
+      s.normal = touching.normal;
+      const double c = restitution<double>(problem, s, values_of(problem, s)), beyond = std::max({0.0, -c, c - 1.0}) / kBeyond;
+      all.push_back({cost + pair.cost() + 0.5 * beyond * beyond, s});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<State> start_states(const Problem& problem, double time, int count) {
+  State base;
+  base.time = time;
+  base.down = problem.down;
+  std::array<LinearFlight, 2> flights;
+  const auto fly_around = [&](const Problem& as, double t) {
+    for (int o = 0; o < (problem.fixed ? 1 : 2); ++o) {
+      const std::optional<LinearFlight> flight = linear_flight(as, o, t);
+      if (!flight) return false;
+      flights[o] = *flight;
+    }
+    return true;
+  };
+  if (!fly_around(problem, time)) return {};
+  for (int o = 0; o < (problem.fixed ? 1 : 2); ++o) {
+    base.p[o] = flights[o].p;
+    base.v[o] = flights[o].v_before;
+    base.v_after[o] = flights[o].v_after;
+  }
+  base.impulse = base.v_after[0] - base.v[0];
+  const Vec3 other = base.v_after[1] - base.v[1];
+  base.mass_ratio = problem.mass_ratio ? *problem.mass_ratio : std::clamp(base.impulse.norm() / std::max(1e-6, other.norm()), 0.05, 20.0);
+  base.x = problem.fixed ? base.p[0] : Vec3(0.5 * (base.p[0] + base.p[1]));
+  if (!problem.orientations.empty()) {  // impulse and time first, for what they tell of the turning
+    Problem centers = problem;
+    centers.orientations.clear();
+    const Fit fit = approach(centers, base);
+    if (fit.usable) base = fit.state;
+  }
+  const std::vector<Turning> first = turnings(problem, 0, base.time, base.impulse);
+  const std::vector<Turning> second = problem.fixed ? std::vector<Turning>{Turning{}} : turnings(problem, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
+  if (!problem.touches()) return best_of(lever_starts(problem, base, first, second), count);
+  Problem tilted = problem;
+  tilted.down = base.down;
+  if (!fly_around(tilted, base.time)) return {};
+  return best_of(touching_starts(problem, base, flights, first, second), count);
 }
 
 }  // namespace unseen::collision
