@@ -99,15 +99,20 @@ void advance(std::vector<Candidate>& candidates, double worse, Context& context,
   if (!candidates.empty()) std::erase_if(candidates, [limit = candidates.front().score + worse](const Candidate& c) { return c.score > limit; });
 }
 
-/// Orientations may be much better than expected; then other starts lead on.
-void add_exact_orientations(std::vector<Candidate>& candidates) {
-  constexpr double kBetter = 0.15;
-  const std::size_t count = candidates.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (candidates[i].problem.orientations.empty() || !candidates[i].problem.scattered) return;
-    candidates.push_back(candidates[i]);
-    candidates.back().problem.orientation_sigma *= kBetter;
+/// Orientations may be much better or worse than expected: starts for each.
+std::vector<Candidate> first_candidates(const Problem& problem, double time, int starts) {
+  constexpr double kNoises[] = {1.0, 0.15, 4.0};  // times what was expected
+  std::vector<Candidate> candidates;
+  for (const double noise : kNoises) {
+    Problem guess = problem;
+    guess.orientation_sigma *= noise;
+    for (State& state : start_states(guess, time, starts)) {
+      candidates.push_back({guess, {}, 0.0});
+      candidates.back().fit.state = std::move(state);
+    }
+    if (problem.orientations.empty() || !problem.scattered || !problem.touches()) break;
   }
+  return candidates;
 }
 
 }  // namespace
@@ -117,13 +122,8 @@ Solution best_fit(const Problem& problem, double time, int starts, Context& cont
   constexpr double kFarOff = 300.0;
   constexpr std::size_t kTried = 12;
   constexpr int kNoiseRounds = 3;
-  std::vector<Candidate> candidates;
-  for (const State& state : start_states(problem, time, starts)) {
-    candidates.push_back({problem, {}, 0.0});
-    candidates.back().fit.state = state;
-  }
+  std::vector<Candidate> candidates = first_candidates(problem, time, starts);
   if (problem.touches()) {
-    add_exact_orientations(candidates);
     advance(candidates, kFarOff, context, [](const Candidate& c) { return try_out(c.problem, c.fit.state); });
     if (candidates.size() > kTried) candidates.erase(candidates.begin() + kTried, candidates.end());
   } else {

@@ -4,6 +4,7 @@
 
 #include "collision/candidates.h"
 #include "collision/chain.h"
+#include "collision/flight_search.h"
 #include "collision/tracks.h"
 #include "collision/two_body.h"
 
@@ -36,7 +37,16 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const Footage& fo
 }
 
 Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector<Sighting>& sightings, double fps, Context& context) {
-  return label(shot, candidates_of(sightings, camera), fps, kLeastSightingNoise, context);
+  const Candidates candidates = candidates_of(sightings, camera);
+  const int body = only_free_body(shot);
+  if (body < 0) {
+    if (std::optional<Tracks> tracks = search_pair(shot, camera, candidates, fps, kLeastSightingNoise, context)) return *tracks;
+    return label(shot, candidates, fps, kLeastSightingNoise, context);
+  }
+  Tracks tracks = label(shot, candidates, fps, kLeastSightingNoise, context);
+  if (tracks.meetings.empty())
+    if (std::optional<Tracks> found = search_chain(shot, camera, candidates, body, fps, kLeastSightingNoise, context)) return *found;
+  return tracks;
 }
 
 }  // namespace unseen::collision

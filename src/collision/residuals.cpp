@@ -185,7 +185,7 @@ struct FrictionTerm : Base {
   static constexpr int kResiduals = 3;
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
-    constexpr double kUsual = 0.7;  // coefficient of friction
+    constexpr double kUsual = 0.4;  // coefficient of friction
     const Vec3& n = *reference.normal;
     const T along = s.impulse.dot(n.cast<T>());
     const Vec3T<T> across = s.impulse - n.cast<T>() * along;

@@ -12,6 +12,7 @@
 #include "collision/touching_fit.h"
 #include "collision/unknowns.h"
 #include "collision/views.h"
+#include "unseen/core/random.h"
 
 namespace unseen::collision {
 namespace {
@@ -99,7 +100,9 @@ std::pair<Vec3, double> contact_of(const Problem& problem, const State& s, const
 }
 
 /// Shapes unknown: where the levers say.
-std::vector<Ranked> lever_starts(const Problem& problem, const State& base, const std::vector<Turning>& first, const std::vector<Turning>& second) {
+std::vector<Ranked> lever_starts(const Problem& problem, const State& base) {
+  const std::vector<Turning> first = turnings(problem, 0, base.time, base.impulse);
+  const std::vector<Turning> second = problem.fixed ? std::vector<Turning>{Turning{}} : turnings(problem, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
   constexpr double kApart = 0.15;  // of the body's size: how far two levers may disagree
   std::vector<Ranked> all;
   for (const Turning& a : first)
@@ -123,36 +126,77 @@ void share_change(const Turning& turning, const Vec3& change, Vec3& h, Vec3& h_a
   h_after = h + change;
 }
 
-/// Both shapes known: all ways in which they can touch, each with the impulse that explains the flights best.
-std::vector<Ranked> touching_starts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights, const std::vector<Turning>& first,
-                                    const std::vector<Turning>& second) {
-  constexpr int kDirections = 256;
-  constexpr std::size_t kTurnings = 6, kPairs = 16;
-  constexpr double kHopeless = 60.0, kBeyond = 0.1;  // ½ χ²; restitution outside [0,1]
-  struct Pair {
-    const Turning *a, *b;
-    double cost() const { return a->cost + b->cost; }
-  };
+/// The orientations as they might have been seen.
+Problem shaken(Problem problem, Random& random) {
+  for (OrientationObservation& o : problem.orientations)
+    o.q = (rotation_by<double>(Vec3(problem.orientation_sigma * Vec3(random.normal(), random.normal(), random.normal()))) * o.q).normalized();
+  return problem;
+}
+
+struct Pair {
+  Turning a, b;
+  double cost() const { return a.cost + b.cost; }
+};
+
+/// How both bodies may have turned, the best first; noisy orientations are tried shaken as well, since a small turn may decide where the shapes touch.
+std::vector<Pair> turning_pairs(const Problem& problem, const State& base, int shakes) {
+  constexpr std::size_t kTurnings = 6, kPairs = 16, kShakenTurnings = 2;
+  constexpr double kHopeless = 60.0;      // ½ χ²
+  constexpr double kWorthShaking = 0.03;  // rad
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < std::min(first.size(), kTurnings); ++i)
-    for (std::size_t j = 0; j < std::min(second.size(), kTurnings); ++j) pairs.push_back({&first[i], &second[j]});
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.cost() < b.cost(); });
-  if (pairs.size() > kPairs) pairs.resize(kPairs);
+  const auto add = [&](const Problem& seen, std::size_t most_each, std::size_t most) {
+    const std::vector<Turning> first = turnings(seen, 0, base.time, base.impulse), second = turnings(seen, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
+    std::vector<Pair> some;
+    for (std::size_t i = 0; i < std::min(first.size(), most_each); ++i)
+      for (std::size_t j = 0; j < std::min(second.size(), most_each); ++j) some.push_back({first[i], second[j]});
+    std::stable_sort(some.begin(), some.end(), [](const Pair& a, const Pair& b) { return a.cost() < b.cost(); });
+    if (some.size() > most) some.resize(most);
+    std::erase_if(some, [limit = some.front().cost() + kHopeless](const Pair& p) { return p.cost() > limit; });
+    pairs.insert(pairs.end(), some.begin(), some.end());
+  };
+  add(problem, kTurnings, kPairs);
+  if (problem.orientations.empty() || !problem.scattered || problem.orientation_sigma < kWorthShaking) return pairs;
+  Random random(1);
+  for (int i = 0; i < shakes; ++i) add(shaken(problem, random), kShakenTurnings, kShakenTurnings);
+  return pairs;
+}
+
+/// Directions from the second body's centre to the first's that the flights allow.
+std::vector<Vec3> possible_offsets(const Problem& problem, const std::array<LinearFlight, 2>& flights) {
+  constexpr int kDirections = 256;
+  constexpr double kSlack = 0.1, kFar = 4.0;  // of the bodies' size: what flights hide; standard deviations
+  const double size = problem.solids[0].mass.extent + problem.solids[1].mass.extent;
+  Mat3 spread = std::pow(kSlack * size, 2) * Mat3::Identity();
+  for (const LinearFlight& f : flights) spread += f.normal.topLeftCorner<9, 9>().inverse().topLeftCorner<3, 3>();
+  const Mat3 precision = spread.inverse();
+  const Vec3 expected = flights[0].p - flights[1].p;
+  std::vector<Vec3> possible;
+  for (const Vec3& u : sphere_directions(kDirections)) {
+    const double along = std::clamp(u.dot(precision * expected) / u.dot(precision * u), 0.0, size);
+    const Vec3 off = along * u - expected;
+    if (off.dot(precision * off) < kFar * kFar) possible.push_back(u);
+  }
+  return possible.empty() ? sphere_directions(kDirections) : possible;
+}
+
+/// Both shapes known: all ways in which they can touch, each with the impulse that explains the flights best.
+std::vector<Ranked> touching_starts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights) {
+  constexpr double kBeyond = 0.1;  // restitution outside [0,1]
+  constexpr int kTouchings = 3000;  // for all shakes together
   const TouchingFit fit(problem, base, flights[0], flights[1]);
-  const std::vector<Vec3> directions = sphere_directions(kDirections);
+  const std::vector<Vec3> directions = possible_offsets(problem, flights);
+  const int shakes = kTouchings / (2 * static_cast<int>(directions.size()));
   std::vector<Ranked> all;
-  for (const Pair& pair : pairs) {
-    if (pair.cost() > pairs.front().cost() + kHopeless) break;
-    for (const Touching& touching : touchings(problem.solids[0], pair.a->q, problem.solids[1], pair.b->q, directions)) {
-      auto [cost, s] = fit(touching, pair.a->turn(), pair.b->turn());
-      s.q = {pair.a->q, pair.b->q};
-      share_change(*pair.a, touching.arm_a.cross(s.impulse), s.h[0], s.h_after[0]);
-      share_change(*pair.b, Vec3(-touching.arm_b.cross(s.impulse) / s.mass_ratio), s.h[1], s.h_after[1]);
+  for (const Pair& pair : turning_pairs(problem, base, shakes))
+    for (const Touching& touching : touchings(problem.solids[0], pair.a.q, problem.solids[1], pair.b.q, directions)) {
+      auto [cost, s] = fit(touching, pair.a.turn(), pair.b.turn());
+      s.q = {pair.a.q, pair.b.q};
+      share_change(pair.a, touching.arm_a.cross(s.impulse), s.h[0], s.h_after[0]);
+      share_change(pair.b, Vec3(-touching.arm_b.cross(s.impulse) / s.mass_ratio), s.h[1], s.h_after[1]);
       s.normal = touching.normal;
       const double c = restitution<double>(problem, s, values_of(problem, s)), beyond = std::max({0.0, -c, c - 1.0}) / kBeyond;
       all.push_back({cost + pair.cost() + 0.5 * beyond * beyond, s});
     }
-  }
   return all;
 }
 
@@ -187,13 +231,11 @@ std::vector<State> start_states(const Problem& problem, double time, int count) 
     const Fit fit = approach(centers, base);
     if (fit.usable) base = fit.state;
   }
-  const std::vector<Turning> first = turnings(problem, 0, base.time, base.impulse);
-  const std::vector<Turning> second = problem.fixed ? std::vector<Turning>{Turning{}} : turnings(problem, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
-  if (!problem.touches()) return best_of(lever_starts(problem, base, first, second), count);
+  if (!problem.touches()) return best_of(lever_starts(problem, base), count);
   Problem tilted = problem;
   tilted.down = base.down;
   if (!fly_around(tilted, base.time)) return {};
-  return best_of(touching_starts(problem, base, flights, first, second), count);
+  return best_of(touching_starts(problem, base, flights), count);
 }
 
 }  // namespace unseen::collision

@@ -48,7 +48,7 @@ TouchingFit::TouchingFit(const Problem& problem, const State& base, const Linear
 
 TouchingFit::Result TouchingFit::operator()(const Touching& touching, const Turn& turn_a, const Turn& turn_b) const {
   constexpr int kRounds = 3;
-  constexpr double kFriction = 0.7, kLateness = 0.1;  // |J_t| over J_n that is still usual; s
+  constexpr double kFriction = 0.4, kLateness = 0.1;  // |J_t| over J_n that is still usual; s
   const double inverse_sigma = 3.0 / base_.mass_ratio;
   Vec3 impulse = base_.impulse;
   double inverse = 1.0 / base_.mass_ratio;
