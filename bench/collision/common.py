@@ -16,6 +16,7 @@ UNSEEN = ROOT / "build/release/bin/unseen"
 MEASURES = ["exit", "given", "c_true", "c", "c_error", "c_low", "c_high", "c_in", "m_true", "m", "m_error", "m_in", "ambiguous", "ambiguous_holds",
             "fits", "c_impact", "c_impact_error", "time_frames", "path", "rotation_deg", "seconds", "why"]
 
+GOLDEN = 0.5 * (5**0.5 - 1)
 LEAST_TOLD = 1  # deg: what the solver is told of orientations that have less noise
 
 
@@ -25,11 +26,11 @@ class Bench:
     work: Path
     data: Path
     jobs: int = 1
-    every: int = 1  # only every so manyth case
+    every: int = 1  # about one of so many cases
 
     def run(self, function, cases):
         """Rows of all cases, in their order. `function` takes this, and a case as keyword arguments."""
-        cases = cases[::self.every]
+        cases = [case for i, case in enumerate(cases) if i * GOLDEN % 1 < 1 / self.every]  # spread over what a case has
         with ThreadPoolExecutor(self.jobs) as pool:
             yield from pool.map(lambda case: function(self, **case), cases)
 
