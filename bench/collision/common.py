@@ -42,8 +42,11 @@ def flags(options):
 
 
 def command(*arguments):
-    """Exit code and the last line of errors."""
-    done = subprocess.run([UNSEEN, *map(str, arguments), "--quiet"], stderr=subprocess.PIPE, text=True, timeout=500, check=False)
+    """Exit code (124: stopped after ten minutes, as of timeout(1)) and the last line of errors."""
+    try:
+        done = subprocess.run([UNSEEN, *map(str, arguments), "--quiet"], stderr=subprocess.PIPE, text=True, timeout=600, check=False)
+    except subprocess.TimeoutExpired:
+        return 124, ""
     return done.returncode, (done.stderr.strip().splitlines() or [""])[-1]
 
 
