@@ -64,7 +64,8 @@ def compare(bench, name, synth, **columns):
         if not use:
             continue
         off = [np.linalg.norm(paths[i][f][0] - true[i][f][0]) for i in (0, 1) for f in use]
-        angles = [np.degrees(turned(true[i][f][1], paths[i][f][1], half_turns(shapes[i].get("box")))) for i in (0, 1) if "box" in shapes[i] for f in use]
+        boxes = [i for i in (0, 1) if "box" in shapes[i]]
+        angles = [np.degrees(turned(true[i][f][1], paths[i][f][1], half_turns(shapes[i]))) for i in boxes for f in use]
         row |= {f"{way}_off_m": number(float(max(off))), f"{way}_turned_deg": number(float(max(angles))) if angles else "",
                 f"{way}_apart_m": number(float(min(gap_between(shapes, [paths[i][f] for i in (0, 1)]) for f in use)))}
     row["true_apart_m"] = number(float(min(gap_between(shapes, [true[i][f] for i in (0, 1)]) for f in near)))
@@ -84,8 +85,8 @@ def keyframe(bench):
         for way in ("keyframes", "ours"):
             off, turn, apart = (floats(rows, f"{way}_{what}") for what in ("off_m", "turned_deg", "apart_m"))
             if len(off):
-                say(f"  {way}: within {1000 * AROUND:.0f} ms of the impact off by up to {100 * np.median(off):.1f} cm and {np.median(turn):.1f}° (medians); "
-                    f"the bodies come within {100 * np.median(apart):.1f} cm")
+                say(f"  {way}: within {1000 * AROUND:.0f} ms of the impact off by up to {100 * np.median(off):.1f} cm (median)"
+                    + (f" and {np.median(turn):.1f}°" if len(turn) else "") + f"; the bodies come within {100 * np.median(apart):.1f} cm")
 
     return ["case", "scene", "seed", *columns, "true_apart_m", *MEASURES], bench.run(compare, cases), say_all
 
@@ -105,6 +106,9 @@ def spinning(bench):
             if row.get("c"):
                 values.setdefault((row["scene"], row["seed"]), {})[row["spin"]] = float(row["c"])
         apart = [abs(pair[0] - pair[30]) for pair in values.values() if len(pair) == 2]
-        say(f"  c with and without spin: {np.median(apart):.4f} apart (median), {max(apart):.4f} (most), {len(apart)} pairs" if apart else "  no pair has both values")
+        if apart:
+            say(f"  c with and without spin: {np.median(apart):.4f} apart (median), {max(apart):.4f} (most), {len(apart)} pairs")
+        else:
+            say("  no pair has both values")
 
     return ["case", "scene", "spin", "seed", *MEASURES], bench.run(simulated, cases), say_all

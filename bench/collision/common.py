@@ -13,9 +13,10 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 UNSEEN = ROOT / "build/release/bin/unseen"
-MEASURES = ["exit", "given", "c_true", "c", "c_error", "c_low", "c_high", "c_in", "m_true", "m", "m_error", "m_in", "ambiguous", "ambiguous_holds",
-            "fits", "c_impact", "c_impact_error", "time_frames", "path", "rotation_deg", "seconds", "why"]
+MEASURES = ["exit", "given", "c_true", "c", "c_error", "c_low", "c_high", "c_in", "m_true", "m", "m_error", "m_in",
+            "ambiguous", "ambiguous_holds", "fits", "c_impact", "c_impact_error", "time_frames", "path", "rotation_deg", "seconds", "why"]
 
+SAID = ["exit", "c_true", "c", "c_error", "c_in", "m_error", "ambiguous", "seconds", "why"]
 GOLDEN = 0.5 * (5**0.5 - 1)
 LEAST_TOLD = 1  # deg: what the solver is told of orientations that have less noise
 
@@ -136,7 +137,8 @@ def summary(rows, what):
     if len(withheld) > len(c):
         text += f"; with what was withheld c off by {np.median(withheld):.4f} (median of {len(withheld)})"
     if len(m):
-        text += f"; m off by {np.median(m):.4f}, {100 * np.sum(m <= 0.1) / ratios:.0f} % within 10 %, interval holds {100 * floats(rows, 'm_in').mean():.0f} %"
+        text += f"; m off by {np.median(m):.4f} (median), {100 * np.sum(m <= 0.1) / ratios:.0f} % within 10 %"
+        text += f", interval holds {100 * floats(rows, 'm_in').mean():.0f} %"
     return text
 
 
@@ -148,6 +150,6 @@ def write(rows, fields, file):
         table.writerow(row)
         file.flush()
         done.append(row)
-        said = ", ".join(f"{key} {row[key]}" for key in ("exit", "c_true", "c", "c_error", "c_in", "m_error", "ambiguous", "seconds") if row.get(key, "") != "")
-        print(f"{row['case']}: {said}", file=sys.stderr)
+        said = [f"{key} {row[key]}" for key in SAID if row.get(key, "") != ""]
+        print(f"{row['case']}: {', '.join(said)}", file=sys.stderr)
     return done

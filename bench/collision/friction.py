@@ -32,7 +32,7 @@ def slope_of(truth):
 
 
 def point_shot(folder, mu, c):
-    """A point mass that slides on a floor at 45°, 2 m before a level camera; the floor's normal is not told."""
+    """A point mass that slides on a floor at 45°, 2 m before a level camera."""
     v, at = 2.8, np.array([-0.1, 2.0, -0.5])
     before = v * np.array([1.0, 0, -1.0])
     after = before + v * (1 + c) * np.array([-mu, 0, 1])
@@ -42,11 +42,11 @@ def point_shot(folder, mu, c):
         x, y, z = at + (before if t < 0 else after) * t + 0.5 * GRAVITY * t**2
         u, w = CAMERA["cx"] + CAMERA["fx"] * x / y, CAMERA["cy"] - CAMERA["fy"] * z / y
         if z >= at[2] - 1e-9 and 0 <= u < 1280 and 0 <= w < 720:
-            seen.append({"frame": frame + 30, "x": u, "y": w, "radius": CAMERA["fx"] * 0.03 / y, "label": "ball"})
+            seen.append({"frame": frame + 30, "x": u, "y": w, "radius": CAMERA["fx"] * 0.03 / y, "label": "point"})
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "observations.json").write_text(json.dumps(seen))
     (folder / "shot.json").write_text(json.dumps({"observations": "observations.json", "fps": FPS, "camera": CAMERA, "down": [0, 1, 0],
-                                                  "bodies": [{"name": "ball", "sphere": 0.03}, {"name": "floor", "fixed": True}]}))
+                                                  "bodies": [{"name": "point", "size": 0.06}, {"name": "floor", "fixed": True, "normal": [0, -1, 0]}]}))
 
 
 def case(bench, scene, mu, c, seed, model):

@@ -58,9 +58,9 @@ def poses(file, body):
     return seen
 
 
-def half_turns(box):
+def half_turns(shape):
     """Rotations that map a box of three different edges to itself; one for other bodies."""
-    return list(np.eye(4)) if box else [np.array([1.0, 0, 0, 0])]
+    return list(np.eye(4)) if "box" in shape else [np.array([1.0, 0, 0, 0])]
 
 
 def turned(p, q, symmetries):
@@ -79,6 +79,6 @@ def after_impact(truth, result):
         spins.append(np.mean(steps) * truth["fps"])
         if result:
             found = poses(result, name)
-            off = [turned(true[f][1], found[f][1], half_turns(body.get("box"))) for f in true if f in found]
+            off = [turned(true[f][1], found[f][1], half_turns(body)) for f in true if f in found]
             errors.append(np.degrees(np.sqrt(np.mean(np.square(off)))) if off else 180.0)
     return max(spins), max(errors) if errors else None

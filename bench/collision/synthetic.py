@@ -8,6 +8,7 @@ from collision.common import MEASURES, files, simulated, summary
 from collision.motion import after_impact
 
 THESIS = {"scene": "boxes", "fps": 60, "frames": 90, "restitution": 0.49, "mass_ratio": 1.33}  # Sec. 5.4.1
+LITTLE = {"centroid_noise": 0.01, "orientation_noise": 2}
 
 
 def say(text):
@@ -52,7 +53,8 @@ def orientations(bench):
     cases = []
     for level in (0, 5, 10, 15, 20, 25, 30, 40):
         for seed in range(1, 5):
-            cases.append({"name": f"orientations-{level}-{seed}", "synth": {**THESIS, "orientation_noise": level / 2, "seed": seed}, "degrees": level})
+            synth = {**THESIS, "orientation_noise": level / 2, "seed": seed}
+            cases.append({"name": f"orientations-{level}-{seed}", "synth": synth, "degrees": level})
 
     def say_all(rows):
         by(rows, "degrees", "noise (deg)")
@@ -66,8 +68,8 @@ def gap(bench):
     cases = []
     for frames in (2, 4, 6, 8, 10):
         for seed in range(1, 7):
-            noisy = {"centroid_noise": 0.01, "orientation_noise": 2} if seed % 2 else {}
-            cases.append({"name": f"gap-{frames}-{seed}", "synth": {**THESIS, **noisy, "gap": frames, "seed": seed}, "gap": frames, "noisy": len(noisy) // 2})
+            synth = {**THESIS, "gap": frames, "seed": seed} | (LITTLE if seed % 2 else {})
+            cases.append({"name": f"gap-{frames}-{seed}", "synth": synth, "gap": frames, "noisy": seed % 2})
 
     def say_all(rows):
         by(rows, "noisy", "noise")
@@ -88,7 +90,7 @@ def spin(bench):
     cases = []
     for seed in range(1, 9):
         for scene, speed in (("offcentre", None), ("spin", 12), ("spin", 20)):
-            synth = {"scene": scene, "fps": 60, "centroid_noise": 0.01, "orientation_noise": 2, "seed": seed} | ({"spin": speed} if speed else {})
+            synth = {"scene": scene, "fps": 60, "seed": seed, **LITTLE} | ({"spin": speed} if speed else {})
             cases.append({"name": f"spin-{scene}-{speed or 'drawn'}-{seed}", "synth": synth, "scene": scene})
 
     def say_all(rows):
@@ -108,13 +110,16 @@ def coverage(bench):
         scene = kinds[i % len(kinds)]
         level = {"centroid_noise": round(random.uniform(0.005, 0.06), 4), "orientation_noise": round(random.uniform(1, 6), 2)}
         cases.append({"name": f"coverage-{scene}-{i + 1}", "synth": {"scene": scene, "fps": 120, "seed": i + 1, **level}, "scene": scene, **level})
-    return ["case", "scene", "centroid_noise", "orientation_noise", "seed", *MEASURES], bench.run(simulated, cases), lambda rows: by(rows, "scene", "scene")
+    fields = ["case", "scene", "centroid_noise", "orientation_noise", "seed", *MEASURES]
+    return fields, bench.run(simulated, cases), lambda rows: by(rows, "scene", "scene")
 
 
 def ablation(bench):
     """Fig. 5.9: soft physics with terms left out, and the exact form."""
-    left_out = ["momentum", "impulse", "energy", "restitution", "gravity", "size", "orientation", "momentum,impulse", "momentum,impulse,energy,restitution"]
-    kinds = [("exact", {"physics": "exact"}), ("soft", {"physics": "soft"})] + [("without " + terms, {"physics": "soft", "without": terms}) for terms in left_out]
+    left_out = ["momentum", "impulse", "energy", "restitution", "gravity", "size", "orientation", "momentum,impulse",
+                "momentum,impulse,energy,restitution"]
+    kinds = [("exact", {"physics": "exact"}), ("soft", {"physics": "soft"})]
+    kinds += [("without " + terms, {"physics": "soft", "without": terms}) for terms in left_out]
     cases = []
     for percent, degrees in ((0, 0), (5, 5)):
         synth = {**THESIS, "gap": 10, "centroid_noise": percent / 100, "orientation_noise": degrees}

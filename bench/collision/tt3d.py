@@ -86,8 +86,8 @@ def case(bench, view, noisy, number):
     name = f"tt3d-{view}{'' if noisy else '-exact'}-{number}"
     true = write_shot(bench.work / name / "shot", data, view, track)
     code, seconds, result = reconstruct(bench.work / name / "shot", bench.work / name / "out", {})
-    row = {"case": name, "view": view, "noisy": int(noisy), "track": number, "before": len(track) - after, "after": after, "c_no_drag": f"{c_plain:.4f}",
-           **scores(code, seconds, result, c_true, None)}
+    row = {"case": name, "view": view, "noisy": int(noisy), "track": number, "before": len(track) - after, "after": after,
+           "c_no_drag": f"{c_plain:.4f}", **scores(code, seconds, result, c_true, None)}
     if result:
         rms = distance(result, dict(enumerate(true)))
         row["rms_m"] = "" if rms is None else f"{rms:.4f}"
