@@ -20,7 +20,7 @@ struct Options {
   int starts = 16;                  ///< solutions tried from different starts
   int resamples = 40;               ///< of the residuals, for the intervals
   int held_out = 5;                 ///< every so manyth frame is kept out of a second solve that tells whether the model fits; 0 = none
-  double orientation_noise = 0.0872664625997165;  ///< rad, of given orientations
+  double orientation_noise = 5.0;  ///< deg, standard deviation of given orientations
   int seed = 1;
 };
 
