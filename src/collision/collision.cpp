@@ -61,6 +61,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
     const Stage stage(context, summary, "positions");
     impacts = solve_positions(shot, options, evidence.camera, solids, tracks, context);
     share_gravity(impacts);
+    share_floor(impacts);
   }
   {
     const Stage stage(context, summary, "orientations");

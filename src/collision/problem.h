@@ -33,6 +33,12 @@ struct OrientationObservation {
   Quat q = Quat::Identity();
 };
 
+/// Another impact of a ball with the plane that it meets in this one: its centre is as high there.
+struct OtherContact {
+  bool after = false;  ///< this impact
+  double time = 0;     ///< s
+};
+
 /// One impact of two bodies, or of one with something fixed, as the solver sees it. Camera coordinates, SI units.
 struct Problem {
   Camera camera;
@@ -42,6 +48,8 @@ struct Problem {
   std::array<Solid, 2> solids;
   bool fixed = false;                  ///< the second body never moves
   std::optional<Vec3> fixed_normal;    ///< of the fixed body, towards the first
+  std::optional<double> fixed_offset;  ///< of its plane along the normal, m, if known
+  std::vector<OtherContact> other_contacts;  ///< with the same plane, before and after this impact
   std::optional<double> mass_ratio;    ///< known
   std::optional<double> restitution;   ///< known
   std::array<double, 2> drag = {0, 0};  ///< 1/m

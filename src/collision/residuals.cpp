@@ -163,20 +163,33 @@ struct TouchTerm : Base {
   Proximity touch;
   std::array<Vec3, 2> local;  // the surface points in the principal frames
   double sigma;               // m
-  bool has_point;             // the contact point counts: it is one of the unknowns or, of a ball off something fixed, held where the
-                              // linear start has it, since motion along the view ray is hardly seen there
 
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
     const Vec3T<T> a = s.p[0] + s.q[0] * local[0].cast<T>();
     const Vec3T<T> b = problem.fixed ? a : Vec3T<T>(s.p[1] + s.q[1] * local[1].cast<T>());
     using std::sqrt;
-    if (!problem.fixed && problem.solids[0].is_sphere() && problem.solids[1].is_sphere())
+    if (problem.fixed)
+      r[0] = problem.fixed_offset ? (touch.normal.cast<T>().dot(a) - *problem.fixed_offset) / sigma : T(0.0);
+    else if (problem.solids[0].is_sphere() && problem.solids[1].is_sphere())
       r[0] = (sqrt((s.p[0] - s.p[1]).squaredNorm()) - problem.solids[0].radius - problem.solids[1].radius) / sigma;
     else
       r[0] = touch.normal.cast<T>().dot(a - b) / sigma;
     const Vec3T<T> off = touch.axes.transpose().cast<T>() * (s.x - (a + b) * 0.5);
-    for (int i = 0; i < 3; ++i) r[1 + i] = has_point ? off[i] / (sigma + 0.6 * touch.slack[i]) : T(0.0);
+    for (int i = 0; i < 3; ++i) r[1 + i] = off[i] / (sigma + 0.6 * touch.slack[i]);
+  }
+};
+
+/// A ball that meets the same plane again is as high then as now.
+struct HeightTerm : Base {
+  static constexpr int kResiduals = 1;
+  OtherContact other;
+  Vec3 normal;
+
+  template <class T>
+  void of_state(const StateT<T>& s, T* r) const {
+    constexpr double kSigma = 0.005;  // m: the other impact's time is known to a millisecond or two
+    r[0] = normal.cast<T>().dot(position_at<T>(problem, s, 0, other.after, other.time) - s.p[0]) / kSigma;
   }
 };
 
@@ -345,9 +358,11 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
     adder.add("touch", TouchTerm{base, *touch,
                                     {reference.q[0].conjugate() * (touch->point_a - reference.p[0]),
                                      reference.q[1].conjugate() * (touch->point_b - reference.p[1])},
-                                    touch_sigma(problem), problem.fixed || problem.turns(0) || problem.turns(1)});
+                                    touch_sigma(problem)});
   else
     adder.add("midpoint", MidpointTerm{base});
+  if (problem.fixed_normal)
+    for (const OtherContact& other : problem.other_contacts) adder.add("height", HeightTerm{base, other, *problem.fixed_normal});
   if (terms.soft) {
     constexpr double kWeight = 100.0;  // per m/s: the thesis's 10 against the mean squared error of a hundred centroids known to a third of a pixel
     if (terms.momentum && !problem.fixed) adder.add("momentum", MomentumTerm{base, kWeight});

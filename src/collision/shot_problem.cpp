@@ -62,6 +62,7 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
   problem.pixel_sigma = std::max(0.1, tracks.noise);
   problem.orientation_sigma = radians(options.orientation_noise);
   if (problem.fixed) problem.fixed_normal = shot.bodies[1].normal ? shot.bodies[1].normal : shot.floor ? std::optional(shot.floor->normal) : std::nullopt;
+  if (problem.fixed && shot.floor && !shot.bodies[1].normal) problem.fixed_offset = shot.floor->offset;
   if (options.fix_mass_ratio && !problem.fixed) {
     if (!shot.bodies[0].mass || !shot.bodies[1].mass) throw InputError(shot.name, "bodies", "no mass", "the mass of both bodies, for fix_mass_ratio");
     problem.mass_ratio = *shot.bodies[1].mass / *shot.bodies[0].mass;

@@ -20,14 +20,13 @@ namespace {
 constexpr double kMostRatio = 50.0;  // of masses: beyond, the heavier body might as well be fixed
 
 /// The unknowns that nothing in the shot tells of, or that are given.
-std::vector<int> held_unknowns(const Problem& problem) {
+std::vector<int> held_unknowns(const Problem& problem, bool touch) {
   std::vector<int> held;
   const auto hold = [&](int from, int count) {
     for (int i = 0; i < count; ++i) held.push_back(from + i);
   };
   if (problem.gravity == 0.0) hold(kDown, 2);
   if (problem.fixed || problem.mass_ratio) hold(kLogMass, 1);
-  const bool any_turns = problem.turns(0) || problem.turns(1);
   for (int o = 0; o < 2; ++o) {
     const bool still = o == 1 && problem.fixed;
     if (still) hold(kP + 3 * o, 3), hold(kV + 3 * o, 3);
@@ -35,7 +34,7 @@ std::vector<int> held_unknowns(const Problem& problem) {
     if (!problem.terms.soft || still) hold(kVAfter + 3 * o, 3);
     if (!problem.terms.soft || still || !problem.turns(o)) hold(kHAfter + 3 * o, 3);
   }
-  if (!any_turns) hold(kX, 3);
+  if (!touch && !problem.turns(0) && !problem.turns(1)) hold(kX, 3);
   std::sort(held.begin(), held.end());
   return held;
 }
@@ -47,7 +46,8 @@ std::optional<Proximity> touch_of(const Problem& problem, const State& state) {
   if (!problem.has_pose(0)) return std::nullopt;
   if (problem.fixed) {
     if (!problem.fixed_normal) return std::nullopt;
-    return nearest_to_plane(a, state.p[0], state.q[0], *problem.fixed_normal, tolerance);
+    const bool along_impulse = a.is_sphere() && !problem.friction && state.impulse.norm() > 0.0;
+    return nearest_to_plane(a, state.p[0], state.q[0], along_impulse ? Vec3(state.impulse.normalized()) : *problem.fixed_normal, tolerance);
   }
   if (!problem.has_pose(1)) return std::nullopt;
   return nearest(a, state.p[0], state.q[0], problem.solids[1], state.p[1], state.q[1], tolerance);
@@ -77,7 +77,7 @@ std::pair<double, double> impact_times(const Problem& problem) {
 struct Setup {
   Setup(const Problem& problem, const State& reference, const std::optional<Proximity>& touch)
       : evaluation(problem, reference), ceres(options()), blocks(add_residuals(touch, evaluation, ceres)) {
-    ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem)));
+    ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem, touch.has_value())));
     const auto [earliest, latest] = impact_times(problem);
     ceres.SetParameterLowerBound(unknowns(), kTime, std::min(0.0, earliest - reference.time));
     ceres.SetParameterUpperBound(unknowns(), kTime, std::max(0.0, latest - reference.time));
@@ -207,7 +207,8 @@ Fit settle(const Problem& problem, const State& start) {
 }
 
 void add_covariance(const Problem& problem, Fit& fit) {
-  Setup setup(problem, fit.state, fit.touch);
+  const Problem free = without_bounds(problem);  // a bound that is reached says nothing of the noise
+  Setup setup(problem.restitution ? problem : free, fit.state, fit.touch);
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
   options.null_space_rank = -1;

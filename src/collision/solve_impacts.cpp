@@ -27,6 +27,9 @@ void settle_again(SolvedImpact& impact) {
   if (fit.usable) impact.solution.fit = fit;
 }
 
+/// Whether the second impact ends the flight that the first begins.
+bool share_flight(const SolvedImpact& first, const SolvedImpact& second) { return first.meeting.after == second.meeting.before; }
+
 /// The drag with the lowest cost, by golden section.
 double best_drag(const std::vector<SolvedImpact>& impacts) {
   constexpr int kRounds = 20;
@@ -99,6 +102,24 @@ void share_gravity(std::vector<SolvedImpact>& impacts) {
     impact.solution.fit.state.down = sum.normalized();
     if (impact.solution.problem.fixed_normal) add_floor(impact.solution.problem, impact.solution.fit.state);
     settle_again(impact);
+  }
+}
+
+void share_floor(std::vector<SolvedImpact>& impacts) {
+  constexpr int kRounds = 2;
+  const auto one_floor = [](const SolvedImpact& impact) {
+    const Problem& p = impact.solution.problem;
+    return p.fixed && p.fixed_normal && p.solids[0].is_sphere();
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t k = 0; k < impacts.size(); ++k) {
+      impacts[k].solution.problem.other_contacts.clear();
+      for (const std::size_t other : {k - 1, k + 1})
+        if (other < impacts.size() && one_floor(impacts[k]) && one_floor(impacts[other]) && share_flight(impacts[std::min(k, other)], impacts[std::max(k, other)]))
+          impacts[k].solution.problem.other_contacts.push_back({other > k, impacts[other].solution.fit.state.time});
+    }
+    for (SolvedImpact& impact : impacts)
+      if (!impact.solution.problem.other_contacts.empty()) settle_again(impact);
   }
 }
 
