@@ -100,7 +100,26 @@ Polygon common(const Polygon& a, const Polygon& b, double tolerance) {
   return {large[0] + along * from, large[0] + along * to};
 }
 
-/// Point and slack of a contact along `n` between the features nearest to it.
+/// A polygon of corners about the contact, as a feature.
+Feature feature_of(const Polygon& polygon, const Vec2& center, const Vec3& point, const Vec3& n, const Vec3& e1, const Vec3& e2) {
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const Vec2& p : polygon) spread += (p - center) * (p - center).transpose();
+  const double turn = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  Feature feature;
+  feature.point = point;
+  feature.axes.col(0) = n;
+  feature.axes.col(1) = std::cos(turn) * e1 + std::sin(turn) * e2;
+  feature.axes.col(2) = n.cross(feature.axes.col(1));
+  for (const Vec2& p : polygon) {
+    const Vec3 off = e1 * (p - center).x() + e2 * (p - center).y();
+    for (int i = 1; i < 3; ++i) feature.extent[i] = std::max(feature.extent[i], std::abs(feature.axes.col(i).dot(off)));
+  }
+  if (polygon.size() == 1) feature.extent.setZero();
+  if (polygon.size() == 2) feature.extent[2] = 0.0;
+  return feature;
+}
+
+/// Points and features of a contact along `n` between what is nearest to it.
 void locate(const Corners& a, const Corners& b, double tolerance, Proximity& near) {
   const Vec3& n = near.normal;
   const Vec3 e1 = any_orthogonal(n), e2 = n.cross(e1);
@@ -109,52 +128,56 @@ void locate(const Corners& a, const Corners& b, double tolerance, Proximity& nea
     for (const Vec3& c : corners) polygon.push_back({e1.dot(c), e2.dot(c)});
     return convex(polygon);
   };
-  const Corners low = lowest_corners(a, n, tolerance), high = lowest_corners(b, -n, tolerance);
-  Polygon patch = common(flat(low), flat(high), tolerance);
-  if (patch.empty()) patch = {0.5 * (flat(low)[0] + flat(high)[0])};
+  const Polygon low = flat(lowest_corners(a, n, tolerance)), high = flat(lowest_corners(b, -n, tolerance));
+  Polygon patch = common(low, high, tolerance);
+  if (patch.empty()) patch = {0.5 * (low[0] + high[0])};
   Vec2 center = Vec2::Zero();
   for (const Vec2& p : patch) center += p / static_cast<double>(patch.size());
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const Vec2& p : patch) spread += (p - center) * (p - center).transpose();
-  const double turn = 0.5 * std::atan2(2.0 * spread(0, 1), spread(0, 0) - spread(1, 1));
-  near.axes.col(0) = n;
-  near.axes.col(1) = std::cos(turn) * e1 + std::sin(turn) * e2;
-  near.axes.col(2) = n.cross(near.axes.col(1));
-  near.slack.setZero();
   const Vec3 middle = e1 * center.x() + e2 * center.y();
-  for (const Vec2& p : patch) {
-    const Vec3 off = e1 * p.x() + e2 * p.y() - middle;
-    for (int i = 1; i < 3; ++i) near.slack[i] = std::max(near.slack[i], std::abs(near.axes.col(i).dot(off)));
-  }
   near.point_a = middle + n * lowest(a, n);
   near.point_b = middle - n * lowest(b, -n);
+  near.features = {feature_of(low, low.size() == 1 ? low[0] : center, low.size() == 1 ? Vec3(e1 * low[0].x() + e2 * low[0].y() + n * lowest(a, n)) : near.point_a, n, e1, e2),
+                   feature_of(high, high.size() == 1 ? high[0] : center, high.size() == 1 ? Vec3(e1 * high[0].x() + e2 * high[0].y() - n * lowest(b, -n)) : near.point_b, n, e1, e2)};
 }
 
-/// Normals that a contact can have: of faces, or across an edge of each; towards a sphere, from the nearest point.
-std::vector<Vec3> candidates(const Solid& a, const Quat& q_a, const Corners& corners_a, const Solid& b, const Quat& q_b, const Corners& corners_b) {
-  std::vector<Vec3> all;
-  for (const Vec3& n : b.hull.normals) all.push_back(q_b * n);
-  for (const Vec3& n : a.hull.normals) all.push_back(-(q_a * n));
+/// A normal that a contact can have, with the features that it follows.
+struct Axis {
+  Vec3 n;
+  ContactLaw::Kind kind;
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero(), edge = Vec3::Zero();
+  double sign = 1.0;
+
+  ContactLaw law() const { return {kind, a, b, edge, sign}; }
+};
+
+/// Of faces, or across an edge of each; towards a sphere, from the nearest point.
+std::vector<Axis> candidates(const Solid& a, const Quat& q_a, const Corners& corners_a, const Solid& b, const Quat& q_b, const Corners& corners_b) {
+  using Kind = ContactLaw::Kind;
+  std::vector<Axis> all;
+  for (const Vec3& n : b.hull.normals) all.push_back({q_b * n, Kind::face_b, Vec3::Zero(), n});
+  for (const Vec3& n : a.hull.normals) all.push_back({-(q_a * n), Kind::face_a, n});
   for (const Vec3& u : a.hull.edges)
     for (const Vec3& v : b.hull.edges) {
       const Vec3 n = (q_a * u).cross(q_b * v);
-      if (n.norm() > 1e-3) all.insert(all.end(), {n.normalized(), -n.normalized()});
+      if (n.norm() < 1e-3) continue;
+      for (const double sign : {1.0, -1.0}) all.push_back({sign * n.normalized(), Kind::edges, u, v, Vec3::Zero(), sign});
     }
   if (!a.is_sphere() && !b.is_sphere()) return all;
   // from each corner and each edge of the other to the sphere's centre
   const Corners &centers = a.is_sphere() ? corners_a : corners_b, &others = a.is_sphere() ? corners_b : corners_a;
   const Vec3 center = centers.front();
   const double sign = a.is_sphere() ? 1.0 : -1.0;
-  for (const Vec3& c : others)
-    if ((center - c).norm() > 1e-12) all.push_back(sign * (center - c).normalized());
   const Solid& polytope = a.is_sphere() ? b : a;
   const Quat& q = a.is_sphere() ? q_b : q_a;
+  const auto add = [&](const Vec3& off, std::size_t corner, const Vec3& edge) {
+    if (off.norm() < 1e-12) return;
+    const Vec3 local = polytope.hull.vertices.empty() ? Vec3(Vec3::Zero()) : polytope.hull.vertices[corner];
+    all.push_back({sign * off.normalized(), Kind::centers, a.is_sphere() ? Vec3(Vec3::Zero()) : local, a.is_sphere() ? local : Vec3(Vec3::Zero()), edge});
+  };
+  for (std::size_t i = 0; i < others.size(); ++i) add(center - others[i], i, Vec3::Zero());
   for (const Vec3& edge : polytope.hull.edges) {
     const Vec3 e = q * edge;
-    for (const Vec3& c : others) {
-      const Vec3 off = (center - c) - e * e.dot(center - c);
-      if (off.norm() > 1e-12) all.push_back(sign * off.normalized());
-    }
+    for (std::size_t i = 0; i < others.size(); ++i) add((center - others[i]) - e * e.dot(center - others[i]), i, edge);
   }
   return all;
 }
@@ -167,9 +190,9 @@ std::optional<Proximity> nearest(const Solid& a, const Vec3& p_a, const Quat& q_
   const Corners corners_a = placed(a, p_a, q_a), corners_b = placed(b, p_b, q_b);
   Proximity near;
   near.gap = -std::numeric_limits<double>::infinity();
-  for (const Vec3& n : candidates(a, q_a, corners_a, b, q_b, corners_b)) {
-    const double gap = separation(corners_a, corners_b, n);
-    if (gap > near.gap + 1e-12) near.gap = gap, near.normal = n;
+  for (const Axis& axis : candidates(a, q_a, corners_a, b, q_b, corners_b)) {
+    const double gap = separation(corners_a, corners_b, axis.n);
+    if (gap > near.gap + 1e-12) near.gap = gap, near.normal = axis.n, near.law = axis.law();
   }
   if (!std::isfinite(near.gap)) return std::nullopt;  // the centres of two spheres coincide
   locate(corners_a, corners_b, tolerance, near);
@@ -182,6 +205,7 @@ std::optional<Proximity> nearest(const Solid& a, const Vec3& p_a, const Quat& q_
 Proximity nearest_to_plane(const Solid& a, const Vec3& p_a, const Quat& q_a, const Vec3& normal, double tolerance) {
   Proximity near;
   near.normal = normal;
+  near.law.a = normal;
   const Corners corners = placed(a, p_a, q_a), low = lowest_corners(corners, normal, tolerance);
   locate(corners, low, tolerance, near);
   near.point_a -= a.radius * normal;

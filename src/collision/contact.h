@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -33,14 +34,30 @@ struct Solid {
 /// Throws InputError as mass_properties does.
 Solid solid_of(const Body& body, const std::string& source);
 
+/// How the normal (from b to a) follows the bodies while the same features touch. Directions and points are in the principal frames.
+struct ContactLaw {
+  enum class Kind { constant, face_a, face_b, edges, centers };
+  Kind kind = Kind::constant;
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  ///< the constant normal (a); the face's outward one; both edges; two points, the normal leads from b to a
+  Vec3 edge = Vec3::Zero();                 ///< of points: part that is left out, along the edge of whichever body is no sphere
+  double sign = 1;                          ///< of edges
+};
+
+/// What touches of one body: a corner, an edge or a face.
+struct Feature {
+  Vec3 point = Vec3::Zero();     ///< on the surface, at the contact
+  Mat3 axes = Mat3::Identity();  ///< the first is the normal
+  Vec3 extent = Vec3::Zero();    ///< m: how far the contact may be from the point, along the axes
+};
+
 /// Where two solids are nearest, or penetrate least: a separating axis that a touching contact can have (Gottschalk et al. 1996).
 /// Other shapes than spheres are taken as convex.
 struct Proximity {
   Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< on the surfaces
   Vec3 normal = Vec3::UnitZ();  ///< unit, from b to a
   double gap = 0;               ///< m, negative inside
-  Vec3 slack = Vec3::Zero();    ///< m: half extents, along the axes, within which the point may lie when surfaces meet along an edge or a face
-  Mat3 axes = Mat3::Identity();  ///< first: the normal
+  ContactLaw law;
+  std::array<Feature, 2> features;  ///< of polytopes
 };
 
 /// `tolerance` (m): what is that near counts as touching. Nothing if a shape is unknown.

@@ -47,7 +47,7 @@ struct Teller {
     told.contact_point = to_world * (problem().fixed && !impact.solution.fit.touch ? Vec3(s.p[0] - contact_normal<double>(state(), s) * 0.5 * problem().solids[0].mass.extent) : s.x);
     const Vec3 n = contact_normal<double>(state(), s);
     told.normal = to_world * n;
-    if (state().normal) {
+    if (state().law) {
       const Vec3 across = s.impulse - n * n.dot(s.impulse);
       told.friction = across.norm() / std::max(1e-9, n.dot(s.impulse));
       const auto sliding = [&](bool after) {
@@ -76,7 +76,7 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
     if (along > 0.2 && along > 5.0 * across) remarks.push_back(fmt::format("{}: its speed along the view ray is known to ±{:.1f} m/s only", name, along));
     if (!problem.solids[o].is_sphere() && !problem.turns(o)) remarks.push_back(fmt::format("{}: how it turns is not known; the impact is taken as one of its centre", name));
   }
-  if (!fit.state.normal) remarks.push_back("the contact's normal is taken to be the impulse's direction: friction is not told from restitution");
+  if (!fit.state.law) remarks.push_back("the contact's normal is taken to be the impulse's direction: friction is not told from restitution");
   return remarks;
 }
 

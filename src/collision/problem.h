@@ -81,7 +81,7 @@ struct State {
   Vec3 impulse = Vec3::Zero();     ///< on the first body, of mass 1
   double mass_ratio = 1.0;
   std::array<Vec3, 2> v_after, h_after;  ///< free unknowns of the soft form; functions of the others in the exact one
-  std::optional<Vec3> normal;      ///< of the contact, from the second body to the first; none = along the impulse
+  std::optional<ContactLaw> law;   ///< of the contact's normal, from the second body to the first; none = along the impulse
 
   State() : q{Quat::Identity(), Quat::Identity()} {
     for (auto* pair : {&p, &v, &h, &v_after, &h_after}) pair->fill(Vec3::Zero());

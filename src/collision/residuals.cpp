@@ -157,26 +157,35 @@ struct MidpointTerm : Base {
   }
 };
 
-/// Shapes known: the surfaces touch, and the contact point lies on both, as far as edges or faces leave it no slack.
+/// Shapes known: the contact point lies on the features of both that touch.
 struct TouchTerm : Base {
-  static constexpr int kResiduals = 4;
+  static constexpr int kResiduals = 6;
   Proximity touch;
-  std::array<Vec3, 2> local;  // the surface points in the principal frames
-  double sigma;               // m
+  double sigma;  // m
 
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
-    const Vec3T<T> a = s.p[0] + s.q[0] * local[0].cast<T>();
-    const Vec3T<T> b = problem.fixed ? a : Vec3T<T>(s.p[1] + s.q[1] * local[1].cast<T>());
-    using std::sqrt;
-    if (problem.fixed)
-      r[0] = problem.fixed_offset ? (touch.normal.cast<T>().dot(a) - *problem.fixed_offset) / sigma : T(0.0);
-    else if (problem.solids[0].is_sphere() && problem.solids[1].is_sphere())
-      r[0] = (sqrt((s.p[0] - s.p[1]).squaredNorm()) - problem.solids[0].radius - problem.solids[1].radius) / sigma;
-    else
-      r[0] = touch.normal.cast<T>().dot(a - b) / sigma;
-    const Vec3T<T> off = touch.axes.transpose().cast<T>() * (s.x - (a + b) * 0.5);
-    for (int i = 0; i < 3; ++i) r[1 + i] = off[i] / (sigma + 0.6 * touch.slack[i]);
+    constexpr double kAlong = 0.6;  // of a feature's half extent
+    const Vec3T<T> n = normal_by<T>(touch.law, s.p, s.q);
+    for (int o = 0; o < 2; ++o) {
+      T* out = r + 3 * o;
+      if (o == 1 && problem.fixed) {
+        out[0] = problem.fixed_offset ? (n.dot(s.x) - *problem.fixed_offset) / sigma : T(0.0);
+        out[1] = out[2] = T(0.0);
+        continue;
+      }
+      if (problem.solids[o].is_sphere()) {
+        const Vec3T<T> off = s.x - s.p[o] + n * T((o == 0 ? 1.0 : -1.0) * problem.solids[o].radius);
+        for (int i = 0; i < 3; ++i) out[i] = off[i] / sigma;
+        continue;
+      }
+      const Feature& feature = touch.features[o];
+      const Quat back = reference.q[o].conjugate();
+      const Mat3 axes = back * feature.axes;
+      const Vec3 at = back * (feature.point - reference.p[o]);
+      const Vec3T<T> off = axes.transpose().cast<T>() * (s.q[o].conjugate() * (s.x - s.p[o]) - at.cast<T>());
+      for (int i = 0; i < 3; ++i) out[i] = off[i] / (sigma + kAlong * feature.extent[i]);
+    }
   }
 };
 
@@ -199,9 +208,7 @@ struct FrictionTerm : Base {
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
     constexpr double kUsual = 0.4;  // coefficient of friction
-    const Vec3& n = *reference.normal;
-    const T along = s.impulse.dot(n.cast<T>());
-    const Vec3T<T> across = s.impulse - n.cast<T>() * along;
+    const Vec3T<T> n = contact_normal<T>(reference, s), across = s.impulse - n * s.impulse.dot(n);
     using std::sqrt;
     for (int i = 0; i < 3; ++i) r[i] = across[i] / (kUsual * sqrt(s.impulse.squaredNorm() + 1e-12));
   }
@@ -352,13 +359,10 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
   if (terms.gravity && problem.gravity > 0.0) adder.add("gravity", GravityTerm{base});
   if (terms.energy) adder.add("energy", EnergyTerm{base});
   if (terms.restitution) adder.add("restitution", RestitutionTerm{base});
-  if (touch && reference.normal) adder.add("friction", FrictionTerm{base});
+  if (touch && reference.law) adder.add("friction", FrictionTerm{base});
   if (problem.planar) adder.add("planar", PlanarTerm{base});
   if (touch)
-    adder.add("touch", TouchTerm{base, *touch,
-                                    {reference.q[0].conjugate() * (touch->point_a - reference.p[0]),
-                                     reference.q[1].conjugate() * (touch->point_b - reference.p[1])},
-                                    touch_sigma(problem)});
+    adder.add("touch", TouchTerm{base, *touch, touch_sigma(problem)});
   else
     adder.add("midpoint", MidpointTerm{base});
   if (problem.fixed_normal)

@@ -53,12 +53,14 @@ std::optional<Proximity> touch_of(const Problem& problem, const State& state) {
   return nearest(a, state.p[0], state.q[0], problem.solids[1], state.p[1], state.q[1], tolerance);
 }
 
-/// The contact's normal in this state, where it does not follow from the impulse.
-std::optional<Vec3> normal_of(const Problem& problem, const std::optional<Proximity>& touch) {
+/// How the contact's normal follows the bodies, where it does not follow the impulse.
+std::optional<ContactLaw> law_of(const Problem& problem, const std::optional<Proximity>& touch) {
   if (!problem.friction) return std::nullopt;
-  if (touch) return touch->normal;
-  if (problem.fixed && problem.fixed_normal) return problem.fixed_normal;
-  return std::nullopt;
+  if (touch) return touch->law;
+  if (!problem.fixed || !problem.fixed_normal) return std::nullopt;
+  ContactLaw law;
+  law.a = *problem.fixed_normal;
+  return law;
 }
 
 /// The impact lies between the last sighting before it and the first after, or not far from there.
@@ -163,7 +165,7 @@ Fit approach(const Problem& problem, const State& start) {
   constexpr int kIterations = 40;
   Fit fit;
   fit.state = start;
-  fit.state.normal.reset();
+  fit.state.law.reset();
   const Problem free = without_bounds(problem);
   if (!problem.terms.soft && !problem.orientations.empty()) {  // momenta on both sides first, then the impulse that joins them
     Problem apart = free;
@@ -179,28 +181,28 @@ Fit try_out(const Problem& problem, const State& start) {
   Fit fit;
   fit.state = start;
   fit.touch = touch_of(problem, start);
-  fit.state.normal = normal_of(problem, fit.touch);
+  fit.state.law = law_of(problem, fit.touch);
   fit.usable = descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
-  fit.state.normal.reset();
+  fit.state.law.reset();
   return fit;
 }
 
 Fit settle(const Problem& problem, const State& start) {
-  constexpr int kIterations = 40, kTouches = 6;
+  constexpr int kIterations = 60, kTouches = 6;
   Fit fit;
   fit.state = start;
   for (int i = 0; i < kTouches; ++i) {
-    const std::optional<Vec3> before = fit.state.normal;
+    const std::optional<Proximity> before = fit.touch;
     const double cost_before = fit.cost;
     fit.touch = touch_of(problem, fit.state);
-    fit.state.normal = normal_of(problem, fit.touch);
-    if (fit.touch && !before) {
+    if (fit.touch && !fit.state.law) {
+      fit.state.law = law_of(problem, fit.touch);
       fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
       descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
     }
+    fit.state.law = law_of(problem, fit.touch);
     fit.usable = descend(problem, fit.touch, kIterations, fit.state, fit.cost);
-    const bool same_normal = before.has_value() == fit.state.normal.has_value() && (!before || (*before - *fit.state.normal).norm() < 1e-6);
-    if (!fit.usable || !fit.touch || (i > 0 && same_normal && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
+    if (!fit.usable || !fit.touch || (before && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
   }
   if (fit.usable) fit.terms = term_sizes(problem, fit);
   return fit;

@@ -69,7 +69,7 @@ struct Ranked {
 /// Whether two states turn alike and touch in nearly the same way.
 bool alike(const State& a, const State& b) {
   constexpr double kSameNormal = 0.2, kSameTurn = 0.2;  // rad
-  if (!a.normal || !b.normal || line_angle(*a.normal, *b.normal) > kSameNormal) return false;
+  if (!a.law || !b.law || line_angle(a.law->a, b.law->a) > kSameNormal) return false;
   for (int o = 0; o < 2; ++o)
     if (a.q[o].angularDistance(b.q[o]) > kSameTurn || (a.h[o] - b.h[o]).norm() > 0.2 * (a.h[o].norm() + b.h[o].norm())) return false;
   return true;
@@ -83,7 +83,7 @@ std::vector<State> best_of(std::vector<Ranked> all, int count) {
     if (static_cast<int>(states.size()) == count) break;
     if (std::none_of(states.begin(), states.end(), [&](const State& s) { return alike(s, r.state); })) states.push_back(r.state);
   }
-  for (State& s : states) s.normal.reset();
+  for (State& s : states) s.law.reset();
   return states;
 }
 
@@ -193,7 +193,8 @@ std::vector<Ranked> touching_starts(const Problem& problem, const State& base, c
       s.q = {pair.a.q, pair.b.q};
       share_change(pair.a, touching.arm_a.cross(s.impulse), s.h[0], s.h_after[0]);
       share_change(pair.b, Vec3(-touching.arm_b.cross(s.impulse) / s.mass_ratio), s.h[1], s.h_after[1]);
-      s.normal = touching.normal;
+      s.law.emplace();
+      s.law->a = touching.normal;
       const double c = restitution<double>(problem, s, values_of(problem, s)), beyond = std::max({0.0, -c, c - 1.0}) / kBeyond;
       all.push_back({cost + pair.cost() + 0.5 * beyond * beyond, s});
     }

@@ -181,7 +181,7 @@ void expect_pair(const Tracks& tracks, const Meeting& motion, double tc, int lea
   EXPECT_NEAR(tracks.meetings[0].time, tc, 0.3 / kFps);
   ASSERT_EQ(tracks.spans.size(), 4u);
   for (const int s : tracks.meetings[0].before) EXPECT_LT(tracks.points[tracks.spans[static_cast<std::size_t>(s)].end - 1].time, tc);
-  for (const int s : tracks.meetings[0].after) EXPECT_GT(tracks.points[tracks.spans[static_cast<std::size_t>(s)].begin].time, tc);
+  for (const int s : tracks.meetings[0].after) EXPECT_GE(tracks.points[tracks.spans[static_cast<std::size_t>(s)].begin].time, tc);
   for (const FlightSpan& span : tracks.spans) {
     EXPECT_GE(static_cast<int>(span.end - span.begin), least);
     for (std::size_t i = span.begin; i < span.end; ++i) {
