@@ -120,7 +120,7 @@ std::vector<Candidate> first_candidates(const Problem& problem, double time, int
 Solution best_fit(const Problem& problem, double time, int starts, Context& context) {
   constexpr double kHopeless = 40.0, kPoor = 15.0, kUnlikely = 30.0;  // above the best: as found, with touching shapes, with their own noise
   constexpr double kFarOff = 300.0;
-  constexpr std::size_t kTried = 12;
+  constexpr std::size_t kTried = 16;
   constexpr int kNoiseRounds = 3;
   std::vector<Candidate> candidates = first_candidates(problem, time, starts);
   if (problem.touches()) {

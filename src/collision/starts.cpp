@@ -182,7 +182,7 @@ std::vector<Vec3> possible_offsets(const Problem& problem, const std::array<Line
 /// Both shapes known: all ways in which they can touch, each with the impulse that explains the flights best.
 std::vector<Ranked> touching_starts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights) {
   constexpr double kBeyond = 0.1;  // restitution outside [0,1]
-  constexpr int kTouchings = 3000;  // for all shakes together
+  constexpr int kTouchings = 4000;  // for all shakes together
   const TouchingFit fit(problem, base, flights[0], flights[1]);
   const std::vector<Vec3> directions = possible_offsets(problem, flights);
   const int shakes = kTouchings / (2 * static_cast<int>(directions.size()));
