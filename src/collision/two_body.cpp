@@ -204,8 +204,8 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
 }  // namespace
 
 Tracks find_pair(const Shot& shot, const Candidates& candidates, double fps, double least_noise, Context& context) {
-  const double noise = silhouette_noise(shot, candidates, estimate_noise(candidates, least_noise), context);
-  std::vector<Arc> arcs = find_arcs(candidates, noise, context);
+  const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
+  std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
   const std::vector<Collision> found = collisions_of(arcs, links_of(arcs, noise, fps), noise);
   if (found.empty()) return without_collision(shot, candidates, arcs, fps);
