@@ -26,6 +26,14 @@ Vec2 undistorted(const Vec2& pixel, const ShotCamera& camera) {
   return {to[0].x, to[0].y};
 }
 
+/// Where a ball's centre projects to, from the middle of its outline: an ellipse that reaches farther out. With tan a = radius over
+/// depth, the middle is 1 / (1 − tan² a) times as far from the principal point.
+Vec2 projected_center(const Vec2& middle, double diameter, const Camera& camera) {
+  const double tangent = 0.5 * diameter / std::sqrt(camera.fx * camera.fy);
+  const Vec2 principal(camera.cx, camera.cy);
+  return principal + (1.0 - tangent * tangent) * (middle - principal);
+}
+
 }  // namespace
 
 Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres) {
@@ -46,6 +54,7 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
                    m.at<double>(1, 0) * c.pixel.x() + m.at<double>(1, 1) * c.pixel.y() + m.at<double>(1, 2)};
       }
       c.diameter = spheres ? r.diameter : 2.0 * std::sqrt(r.area / kPi);
+      if (spheres) c.pixel = projected_center(c.pixel, c.diameter, camera.camera);
       c.area = r.area;
       c.color = r.color;
       c.colored = true;

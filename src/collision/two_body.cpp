@@ -3,6 +3,7 @@
 #include "collision/two_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "collision/arcs.h"
@@ -22,6 +23,9 @@ constexpr double kOneCollision = 4.0;  // frame times between two collisions
 constexpr std::size_t kMostArcs = 60;
 constexpr double kGate = 3.5;          // σ, of points that are assigned to a flight
 constexpr double kSizesDiffer = 0.12;  // of the logarithm of the size ratio
+constexpr double kOverlap = 3.0;       // frame times that two pieces of one flight may share
+constexpr double kAstray = 0.5;        // diameters that the second may begin off where the first leads
+constexpr double kOneFlight = 1.2;     // times the noise, about one parabola through both
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
 /// One body's flights before and after, by index of arc.
@@ -91,12 +95,63 @@ std::vector<Collision> collisions_of(const std::vector<Arc>& arcs, const std::ve
   return found;
 }
 
-/// Collisions at clearly different times.
-int count_collisions(const std::vector<Collision>& found) {
-  std::vector<double> times;
-  for (const Collision& c : found)
+std::array<std::size_t, 4> pieces_of(const Collision& c) { return {c.a.before, c.b.before, c.a.after, c.b.after}; }
+
+/// Collisions at clearly different times, the first one's flights being of arcs that are `used`.
+int count_collisions(const std::vector<Collision>& found, const std::vector<char>& used) {
+  std::vector<double> times = {found.front().u};
+  for (const Collision& c : found) {
+    const auto pieces = pieces_of(c);
+    if (std::all_of(pieces.begin(), pieces.end(), [&](std::size_t i) { return used[i] != 0; })) continue;
     if (std::none_of(times.begin(), times.end(), [&](double u) { return std::abs(u - c.u) < kOneCollision; })) times.push_back(c.u);
+  }
   return static_cast<int>(times.size());
+}
+
+/// The arc with those points of another that are outside its time.
+Arc with(const Arc& arc, const Arc& other) {
+  Arc both = arc;
+  for (const Candidate& c : other.points)
+    if (c.u < arc.begin() || c.u > arc.end()) both.points.push_back(c);
+  std::stable_sort(both.points.begin(), both.points.end(), [](const Candidate& a, const Candidate& b) { return a.u < b.u; });
+  CurveSums sums(both.begin());
+  for (const Candidate& c : both.points) sums.add(c.u, c.pixel);
+  both.curve = sums.fit();
+  both.noise = std::sqrt(both.curve.squares / std::max(1.0, 2.0 * static_cast<double>(both.points.size()) - 6.0));
+  return both;
+}
+
+/// How far, in σ, the nearer end of `other` is from where the arc leads; more than kGate if it cannot be the same flight.
+double continues(const Arc& arc, const Arc& other, double noise) {
+  constexpr double kNo = 1e9;
+  const bool later = other.begin() > arc.begin();
+  const double overlap = later ? arc.end() - other.begin() : other.end() - arc.begin();
+  if (overlap > kOverlap || unlikeness(looks_of(arc), looks_of(other)) > kUnlike) return kNo;
+  const Candidate& end = later ? other.points.front() : other.points.back();
+  const double away = (end.pixel - arc.curve.at(end.u)).norm(), diameter = typical_diameter(arc.points);
+  if (diameter > 0.0 && away > kAstray * diameter) return kNo;
+  if (with(arc, other).noise > kOneFlight * noise) return kNo;
+  return away / (noise * std::sqrt(2.0 * (1.0 + arc.curve.variance_at(end.u))));
+}
+
+/// The four arcs, each with others that continue it on its side of the impact: silhouettes that merged part a flight. Marks all that
+/// are `used`.
+std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collision, double noise, std::vector<char>& used) {
+  std::vector<Arc> flights;
+  for (const std::size_t i : pieces_of(collision)) flights.push_back(arcs[i]), used[i] = 1;
+  while (true) {
+    double best = kGate;
+    std::size_t flight = 0, piece = arcs.size();
+    for (std::size_t f = 0; f < flights.size(); ++f)
+      for (std::size_t i = 0; i < arcs.size(); ++i) {
+        if (used[i] || (f < 2 ? arcs[i].end() > collision.u + 1.0 : arcs[i].begin() < collision.u - 1.0)) continue;
+        const double off = continues(flights[f], arcs[i], noise);
+        if (off < best) best = off, flight = f, piece = i;
+      }
+    if (piece == arcs.size()) return flights;
+    flights[flight] = with(flights[flight], arcs[piece]);
+    used[piece] = 1;
+  }
 }
 
 /// The points of a flight again, from all candidates on its side of the impact, nearest first.
@@ -181,10 +236,13 @@ Tracks without_collision(const Shot& shot, const Candidates& candidates, const s
   return tracks;
 }
 
-Tracks with_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, const Collision& best, double noise, double fps) {
-  std::vector<std::vector<Candidate>> flights{
-      reassign(candidates, arcs[best.a.before], best.u, true, noise), reassign(candidates, arcs[best.b.before], best.u, true, noise),
-      reassign(candidates, arcs[best.a.after], best.u, false, noise), reassign(candidates, arcs[best.b.after], best.u, false, noise)};
+Tracks with_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, const std::vector<Collision>& found, double noise,
+                      double fps) {
+  const Collision& best = found.front();
+  std::vector<char> used(arcs.size(), 0);
+  const std::vector<Arc> whole = continued(arcs, best, noise, used);
+  std::vector<std::vector<Candidate>> flights;
+  for (std::size_t i = 0; i < 4; ++i) flights.push_back(reassign(candidates, whole[i], best.u, i < 2, noise));
   if (swapped(shot, joined(flights[0], flights[2]), joined(flights[1], flights[3]))) {
     std::swap(flights[0], flights[1]);
     std::swap(flights[2], flights[3]);
@@ -198,6 +256,7 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
   double u = common_time(links[0], links[1]);
   if (std::abs(u - best.u) > kSameTime) u = best.u;
   tracks.meetings.push_back({u / fps, {0, 1}, {2, 3}});
+  tracks.collisions_seen = count_collisions(found, used);
   return tracks;
 }
 
@@ -209,9 +268,7 @@ Tracks find_pair(const Shot& shot, const Candidates& candidates, double fps, dou
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
   const std::vector<Collision> found = collisions_of(arcs, links_of(arcs, noise, fps), noise);
   if (found.empty()) return without_collision(shot, candidates, arcs, fps);
-  Tracks tracks = with_collision(shot, candidates, arcs, found.front(), noise, fps);
-  tracks.collisions_seen = count_collisions(found);
-  return tracks;
+  return with_collision(shot, candidates, arcs, found, noise, fps);
 }
 
 }  // namespace unseen::collision
