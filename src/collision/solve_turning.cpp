@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kKept = 3;     // rotations of a flight that are looked at
 constexpr int kCombined = 8;  // combinations of them that are solved
+constexpr double kHopeless = 150.0;  // χ² above the best one's
 
 /// Given orientations within the flights that meet in this impact.
 std::vector<OrientationObservation> given(const Shot& shot, const Problem& problem) {
@@ -61,6 +62,7 @@ std::vector<Combination> combinations(const std::vector<std::vector<Spin>>& spin
     }
   std::stable_sort(all.begin(), all.end(), [](const Combination& a, const Combination& b) { return a.cost < b.cost; });
   if (all.size() > kCombined) all.resize(kCombined);
+  std::erase_if(all, [least = all.front().cost](const Combination& c) { return c.cost > least + kHopeless; });
   return all;
 }
 
@@ -115,6 +117,19 @@ Problem with_orientations(Problem problem, const Combination& combination, const
   return problem;
 }
 
+/// χ² of a solution by the noise that was expected, which all combinations share, instead of the noise that its own residuals have.
+double comparable_cost(const Solution& solution, const Problem& expected) {
+  const auto squares = [&](const std::string& term, double count, double noise) {
+    const auto it = solution.fit.terms.find(term);
+    return it == solution.fit.terms.end() ? 0.0 : count * std::pow(noise * it->second, 2);
+  };
+  double sum = 0.0;
+  for (const auto& [term, value] : solution.fit.terms)
+    if (term != "points" && term != "orientation") sum += squares(term, 1.0, 1.0);
+  return sum + squares("points", 2.0 * static_cast<double>(expected.points.size()), solution.problem.pixel_sigma / expected.pixel_sigma) +
+         squares("orientation", 3.0 * static_cast<double>(expected.orientations.size()), solution.problem.orientation_sigma / expected.orientation_sigma);
+}
+
 /// Solves with the film's rotations; those that the impact cannot join cost more than those that it can.
 Solution solve_with(const std::vector<std::vector<Spin>>& spins, const SolvedImpact& impact, const Tracks& tracks,
                     const std::array<FigureMaker, 2>& makers, int starts, Context& context) {
@@ -126,7 +141,8 @@ Solution solve_with(const std::vector<std::vector<Spin>>& spins, const SolvedImp
     Problem problem = with_orientations(impact.solution.problem, combination, tracks, impact.meeting);
     problem.points = centered(problem.points, problem, makers, poses_of(impact, combination, tracks));
     Solution solution = best_fit(problem, impact.solution.fit.state.time, starts, context);
-    if (solution.fit.usable) solved.emplace_back(solution.fit.cost + 0.5 * combination.cost, std::move(solution));
+    const double cost = 0.5 * (combination.cost + comparable_cost(solution, problem));
+    if (solution.fit.usable) solved.emplace_back(cost, std::move(solution));
   }
   for (auto& [cost, solution] : solved)
     if (!best.fit.usable || cost < best_cost) best_cost = cost, best = solution;
