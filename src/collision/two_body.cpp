@@ -97,12 +97,11 @@ std::vector<Collision> collisions_of(const std::vector<Arc>& arcs, const std::ve
 
 std::array<std::size_t, 4> pieces_of(const Collision& c) { return {c.a.before, c.b.before, c.a.after, c.b.after}; }
 
-/// Collisions at clearly different times, the first one's flights being of arcs that are `used`.
+/// Collisions at clearly different times; on one side at least, another has flights of its own, of arcs that the first one has not `used`.
 int count_collisions(const std::vector<Collision>& found, const std::vector<char>& used) {
   std::vector<double> times = {found.front().u};
   for (const Collision& c : found) {
-    const auto pieces = pieces_of(c);
-    if (std::all_of(pieces.begin(), pieces.end(), [&](std::size_t i) { return used[i] != 0; })) continue;
+    if ((used[c.a.before] || used[c.b.before]) && (used[c.a.after] || used[c.b.after])) continue;
     if (std::none_of(times.begin(), times.end(), [&](double u) { return std::abs(u - c.u) < kOneCollision; })) times.push_back(c.u);
   }
   return static_cast<int>(times.size());
