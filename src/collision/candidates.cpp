@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <optional>
+
+#include "collision/disc.h"
 
 namespace unseen::collision {
 namespace {
@@ -47,15 +50,16 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
       Candidate c;
       c.frame = static_cast<int>(k);
       c.u = footage.times[k] * footage.fps;
-      c.pixel = undistorted(r.centroid, camera);
+      const std::optional<Disc> disc = spheres ? covered_disc(r) : std::nullopt;
+      c.pixel = undistorted(disc ? disc->center : r.centroid, camera);
       if (!footage.shift.empty()) {
         const cv::Mat& m = footage.shift[k];
         c.pixel = {m.at<double>(0, 0) * c.pixel.x() + m.at<double>(0, 1) * c.pixel.y() + m.at<double>(0, 2),
                    m.at<double>(1, 0) * c.pixel.x() + m.at<double>(1, 1) * c.pixel.y() + m.at<double>(1, 2)};
       }
-      c.diameter = spheres ? r.diameter : 2.0 * std::sqrt(r.area / kPi);
+      c.diameter = disc ? disc->diameter : spheres ? r.diameter : 2.0 * std::sqrt(r.area / kPi);
       if (spheres) c.pixel = projected_center(c.pixel, c.diameter, camera.camera);
-      c.area = r.area;
+      c.area = disc ? 0.25 * kPi * disc->diameter * disc->diameter : r.area;
       c.color = r.color;
       c.colored = true;
       c.whole = !r.at_border;
