@@ -37,11 +37,22 @@ Vec2 projected_center(const Vec2& middle, double diameter, const Camera& camera)
   return principal + (1.0 - tangent * tangent) * (middle - principal);
 }
 
+/// Diameters of the regions that are discs, ascending.
+std::vector<double> whole_discs(const Footage& footage) {
+  std::vector<double> diameters;
+  for (const auto& frame : footage.regions)
+    for (const Region& r : frame)
+      if (is_disc(r)) diameters.push_back(2.0 * std::sqrt(r.area / kPi));
+  std::sort(diameters.begin(), diameters.end());
+  return diameters;
+}
+
 }  // namespace
 
 Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres) {
   Candidates candidates(footage.regions.size());
   const double largest = kLargestShare * footage.width * footage.height;
+  const std::vector<double> wholes = spheres ? whole_discs(footage) : std::vector<double>();
   for (std::size_t k = 0; k < footage.regions.size(); ++k) {
     if (footage.doubled[k]) continue;
     for (std::size_t i = 0; i < footage.regions[k].size() && candidates[k].size() < kMost; ++i) {
@@ -50,7 +61,7 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
       Candidate c;
       c.frame = static_cast<int>(k);
       c.u = footage.times[k] * footage.fps;
-      const std::optional<Disc> disc = spheres ? covered_disc(r) : std::nullopt;
+      const std::optional<Disc> disc = spheres ? covered_disc(r, wholes) : std::nullopt;
       c.pixel = undistorted(disc ? disc->center : r.centroid, camera);
       if (!footage.shift.empty()) {
         const cv::Mat& m = footage.shift[k];

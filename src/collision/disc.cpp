@@ -14,14 +14,17 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kWhole = 0.93;        // share of the bounding circle: nothing is missing
+constexpr double kWhole = 0.9;         // share of the bounding circle: nothing is missing
+constexpr double kMissing = 0.97;      // share of the disc: more is as good without
+constexpr double kAlike = 1.08;        // ratio of diameters
+constexpr int kFewestAlike = 3;
 constexpr int kDraws = 150;
-constexpr double kNear = 1.0, kNearShare = 0.01;  // px, and of the radius: on the circle
+constexpr double kNear = 0.7, kNearShare = 0.01;  // px, and of the radius: on the circle
 constexpr double kOn = 0.45;           // share of the outline that is on it
 constexpr double kOutside = 0.04;      // share of the outline that may be outside
-constexpr int kSectors = 36, kSeen = 11;  // sectors of the circle, and how many of them must be seen
+constexpr int kSectors = 36, kSeen = 11, kStray = 2;  // sectors of the circle; how many must be seen in a row, and at most elsewhere
 constexpr double kLargest = 2.5;       // times the bounding circle
-constexpr double kSmallest = 12.0;     // px: too small to tell
+constexpr double kSmallest = 20.0;     // px: too small to tell
 
 struct Circle {
   Vec2 center = Vec2::Zero();
@@ -85,6 +88,20 @@ Circle best_circle(const std::vector<Vec2>& outline, double largest) {
   return best;
 }
 
+/// Whether the sectors that are seen are enough, and in one row but for single gaps: the two caps of a blurred ball are no disc.
+bool seen_in_a_row(const std::array<bool, kSectors>& seen) {
+  const auto at = [&](int i) { return seen[static_cast<std::size_t>((i + kSectors) % kSectors)]; };
+  int longest = 0, all = 0;
+  for (int begin = 0; begin < kSectors; ++begin) {
+    all += at(begin);
+    int length = 0;
+    for (int i = begin; length < kSectors && (at(i) || at(i + 1)); ++i) ++length;
+    if (at(begin)) longest = std::max(longest, length);
+  }
+  const int within = std::min(longest, all);
+  return within >= kSeen && all - within <= kStray;
+}
+
 /// Whether the outline is mostly on the circle, all around enough, and elsewhere inside.
 bool holds(const std::vector<Vec2>& outline, const Circle& circle) {
   std::array<bool, kSectors> seen{};
@@ -98,21 +115,31 @@ bool holds(const std::vector<Vec2>& outline, const Circle& circle) {
     seen[static_cast<std::size_t>((std::atan2(d.y(), d.x()) / (2.0 * kPi) + 0.5) * kSectors) % kSectors] = true;
   }
   const auto count = static_cast<double>(outline.size());
-  return static_cast<double>(on) > kOn * count && static_cast<double>(outside) < kOutside * count && std::count(seen.begin(), seen.end(), true) >= kSeen;
+  return static_cast<double>(on) > kOn * count && static_cast<double>(outside) < kOutside * count && seen_in_a_row(seen);
+}
+
+bool known_size(double diameter, const std::vector<double>& wholes) {
+  const auto from = std::lower_bound(wholes.begin(), wholes.end(), diameter / kAlike), to = std::upper_bound(wholes.begin(), wholes.end(), diameter * kAlike);
+  return to - from >= kFewestAlike;
 }
 
 }  // namespace
 
-std::optional<Disc> covered_disc(const Region& region) {
-  if (region.circle < kSmallest || region.mask.empty() || region.at_border) return std::nullopt;
-  if (region.area > kWhole * 0.25 * kPi * region.circle * region.circle) return std::nullopt;
+bool is_disc(const Region& region) {
+  return region.circle >= kSmallest && !region.at_border && region.area > kWhole * 0.25 * kPi * region.circle * region.circle;
+}
+
+std::optional<Disc> covered_disc(const Region& region, const std::vector<double>& wholes) {
+  if (region.circle < kSmallest || region.mask.empty() || region.at_border || wholes.empty() || is_disc(region)) return std::nullopt;
   const std::vector<Vec2> outline = outline_of(region);
   if (outline.size() < 16) return std::nullopt;
   const double largest = kLargest * region.circle;
   const Circle circle = best_circle(outline, largest);
   if (circle.radius <= 0.0 || 2.0 * circle.radius > largest || !holds(outline, circle)) return std::nullopt;
   constexpr double kHalfPixel = 0.5;  // the outline runs through the middles of the outermost pixels
-  return Disc{circle.center + Vec2(region.box.x, region.box.y), 2.0 * (circle.radius + kHalfPixel)};
+  const double diameter = 2.0 * (circle.radius + kHalfPixel);
+  if (region.area > kMissing * 0.25 * kPi * diameter * diameter || !known_size(diameter, wholes)) return std::nullopt;
+  return Disc{circle.center + Vec2(region.box.x, region.box.y), diameter};
 }
 
 }  // namespace unseen::collision

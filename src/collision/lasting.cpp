@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <opencv2/imgproc.hpp>
 
 namespace unseen::collision {
 namespace {
@@ -13,6 +14,8 @@ constexpr double kLeastReach = 6.0;  // grey levels, and
 constexpr double kReach = 4.0;       // times the picture's typical noise: as far as one colour goes
 constexpr double kSettled = 0.75;    // share of the frames that agree with the median: the background beyond doubt
 constexpr double kSpread = 0.1;      // of the clip, added to the spread in time of the frames that agree
+constexpr int kThick = 5;            // px: less is no body
+constexpr double kPlainer = 0.8;     // of the median's total variation
 constexpr double kClearly = 1.2;     // times the median's score
 constexpr double kLit = 0.3;         // of the score of a colour that could be its shadow, which the lit one needs
 constexpr double kShadowLeast = 0.25, kShadowMost = 0.95;  // of the light
@@ -101,9 +104,43 @@ int typical(const cv::Mat& deviation) {
   return *middle;
 }
 
+/// Sum of the steps between neighbouring pixels.
+double total_variation(const cv::Mat& noisy, const cv::Mat& mask) {
+  cv::Mat picture;
+  cv::blur(noisy, picture, {kThick, kThick});  // few frames agree on a ghost's place, and leave more noise than the median
+  double sum = 0.0;
+  for (int y = 0; y + 1 < picture.rows; ++y)
+    for (int x = 0; x + 1 < picture.cols; ++x) {
+      if (!mask.at<unsigned char>(y, x)) continue;
+      const cv::Vec3i here = picture.at<cv::Vec3b>(y, x), right = picture.at<cv::Vec3b>(y, x + 1), below = picture.at<cv::Vec3b>(y + 1, x);
+      sum += cv::norm(right - here) + cv::norm(below - here);
+    }
+  return sum;
+}
+
+/// Leaves in `covered` the patches that make the median plainer: a ghost goes. Edges of the background that shake or drift are
+/// unsettled too, and get rougher.
+void keep_plainer(const cv::Mat& lasting, const cv::Mat& median, cv::Mat& covered) {
+  const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kThick, kThick});
+  cv::morphologyEx(covered, covered, cv::MORPH_OPEN, element);
+  cv::Mat labels, stats, centers, mended = median.clone();
+  lasting.copyTo(mended, covered);
+  const int count = cv::connectedComponentsWithStats(covered, labels, stats, centers, 8);
+  for (int i = 1; i < count; ++i) {
+    cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT) - kThick, stats.at<int>(i, cv::CC_STAT_TOP) - kThick,
+                 stats.at<int>(i, cv::CC_STAT_WIDTH) + 2 * kThick, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2 * kThick);
+    box &= cv::Rect({0, 0}, median.size());
+    const cv::Mat patch = labels(box) == i;
+    cv::Mat around;
+    cv::dilate(patch, around, element);
+    if (total_variation(mended(box), around) > kPlainer * total_variation(median(box), around)) covered(box).setTo(0, patch);
+  }
+}
+
 }  // namespace
 
 void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::Mat& deviation, const Context& context) {
+  cv::Mat lasting = picture.clone(), spread = deviation.clone(), covered = cv::Mat::zeros(picture.size(), CV_8U);
   const std::size_t count = frames.size();
   const int reach = static_cast<int>(std::max(kLeastReach, kReach * 1.4826 * typical(deviation)));
   parallel_blocks(context, static_cast<std::size_t>(picture.rows), 16, [&](std::size_t begin, std::size_t end) {
@@ -112,17 +149,21 @@ void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::M
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < picture.cols; ++x) {
         column.read(frames, y, x);
-        cv::Vec3b& color = picture.at<cv::Vec3b>(y, x);
+        cv::Vec3b& color = lasting.at<cv::Vec3b>(y, x);
         best.find(column, color, reach);
         if (best.count >= kSettled * static_cast<double>(count)) continue;
         take_best(column, reach, kClearly * best.score, [](const cv::Vec3b&) { return true; }, best, other);
         if (best.count == 0) continue;
-        describe(column, best, color, deviation.at<cv::Vec3b>(y, x));
+        covered.at<unsigned char>(y, x) = 255;
+        describe(column, best, color, spread.at<cv::Vec3b>(y, x));
         const cv::Vec3b dark = color;
         if (take_best(column, reach, kLit * best.score, [&](const cv::Vec3b& c) { return shadow_of(dark, c); }, best, other))
-          describe(column, best, color, deviation.at<cv::Vec3b>(y, x));
+          describe(column, best, color, spread.at<cv::Vec3b>(y, x));
       }
   });
+  keep_plainer(lasting, picture, covered);
+  lasting.copyTo(picture, covered);
+  spread.copyTo(deviation, covered);
 }
 
 }  // namespace unseen::collision
