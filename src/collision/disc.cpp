@@ -15,7 +15,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kWhole = 0.9;         // share of the bounding circle: nothing is missing
-constexpr double kMissing = 0.97;      // share of the disc: more is as good without
+constexpr double kMissing = 0.98;      // share of the disc: more is as good without
 constexpr double kAlike = 1.08;        // ratio of diameters
 constexpr int kFewestAlike = 3;
 constexpr int kDraws = 150;
@@ -130,7 +130,7 @@ bool is_disc(const Region& region) {
 }
 
 std::optional<Disc> covered_disc(const Region& region, const std::vector<double>& wholes) {
-  if (region.circle < kSmallest || region.mask.empty() || region.at_border || wholes.empty() || is_disc(region)) return std::nullopt;
+  if (region.circle < kSmallest || region.mask.empty() || region.at_border || wholes.empty()) return std::nullopt;
   const std::vector<Vec2> outline = outline_of(region);
   if (outline.size() < 16) return std::nullopt;
   const double largest = kLargest * region.circle;

@@ -18,8 +18,8 @@ struct Disc {
 /// True if the region is a disc and nothing of it is missing or blurred.
 bool is_disc(const Region& region);
 
-/// The disc that a region is a part of: something covers the rest, or it is shaded and looks like the background. Nothing if the region
-/// is a whole disc itself, or its outline is not mostly a circle's with the rest inside (random sample consensus, Fischler and Bolles,
+/// The disc that a region is a part of: something covers the rest, or it is shaded and looks like the background. Nothing if hardly
+/// anything is missing, or the outline is not mostly a circle's with the rest inside (random sample consensus, Fischler and Bolles,
 /// 1981, then least squares). `wholes`: diameters of regions that are discs, ascending; some must be like the result, for a blurred ball
 /// has an outline much like a covered one's.
 std::optional<Disc> covered_disc(const Region& region, const std::vector<double>& wholes);

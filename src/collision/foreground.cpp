@@ -20,7 +20,7 @@ constexpr double kShadowLeast = 0.25, kShadowMost = 0.97;  // of the background'
 constexpr double kShadowSigmas = 3.0, kShadowGray = 7.0;   // off the background's colour
 constexpr double kWeak = 0.5;                  // of a part's contrast: what is weaker is a shadow already if
 constexpr double kWeakGray = 0.1;              // of a pixel's brightness off the background's colour, where that is
-constexpr int kClipped = 235;                  // grey levels or brighter
+constexpr int kBright = 200;                   // grey levels or brighter: there sensors begin to clip
 constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
 constexpr double kShadowWhole = 0.85;          // share of a part that makes it a shadow
 constexpr double kCore = 0.15;                 // share of a part that must be left when its shadow is cut off
@@ -57,7 +57,7 @@ cv::Mat threshold_of(const Background& background, double edge_slack) {
 }
 
 /// 255 where a pixel could be the background with less light: the same colour, darker. Where the difference from the background is
-/// below `weak` and the background is clipped, the colour may be farther off: bright surfaces lose their tint.
+/// below `weak` and the background is nearly clipped, the colour may be farther off: bright surfaces lose their tint.
 cv::Mat shadow_mask(const cv::Mat& frame, const cv::Mat& background, const cv::Mat& noise, const cv::Mat& difference, int weak) {
   cv::Mat mask = cv::Mat::zeros(frame.size(), CV_8U);
   for (int y = 0; y < frame.rows; ++y)
@@ -66,8 +66,8 @@ cv::Mat shadow_mask(const cv::Mat& frame, const cv::Mat& background, const cv::M
       const double bb = b.ddot(b), fb = f.ddot(b), share = bb > 0.0 ? fb / bb : 1.0;
       if (share < kShadowLeast || share > kShadowMost) continue;
       double limit = std::max(kShadowGray, kShadowSigmas * noise.at<float>(y, x));
-      const bool clipped = std::max({b[0], b[1], b[2]}) >= kClipped;
-      if (clipped && difference.at<unsigned char>(y, x) < weak) limit = std::max(limit, kWeakGray * share * std::sqrt(bb));
+      const bool bright = std::max({b[0], b[1], b[2]}) >= kBright;
+      if (bright && difference.at<unsigned char>(y, x) < weak) limit = std::max(limit, kWeakGray * share * std::sqrt(bb));
       bool same = true;
       for (int c = 0; c < 3; ++c) same = same && std::abs(f[c] - share * b[c]) < limit;
       if (same) mask.at<unsigned char>(y, x) = 255;

@@ -15,7 +15,9 @@ constexpr double kReach = 4.0;       // times the picture's typical noise: as fa
 constexpr double kSettled = 0.75;    // share of the frames that agree with the median: the background beyond doubt
 constexpr double kSpread = 0.1;      // of the clip, added to the spread in time of the frames that agree
 constexpr int kThick = 5;            // px: less is no body
-constexpr double kPlainer = 0.8;     // of the median's total variation
+constexpr double kPlainer = 0.82;    // of the median's total variation
+constexpr int kOff = 6;              // grey levels: less is no ghost
+constexpr int kAround = 15;          // px, about a ghost, where bodies linger too
 constexpr double kClearly = 1.2;     // times the median's score
 constexpr double kLit = 0.3;         // of the score of a colour that could be its shadow, which the lit one needs
 constexpr double kShadowLeast = 0.25, kShadowMost = 0.95;  // of the light
@@ -118,14 +120,20 @@ double total_variation(const cv::Mat& noisy, const cv::Mat& mask) {
   return sum;
 }
 
-/// Leaves in `covered` the patches that make the median plainer: a ghost goes. Edges of the background that shake or drift are
-/// unsettled too, and get rougher.
-void keep_plainer(const cv::Mat& lasting, const cv::Mat& median, cv::Mat& covered) {
+/// Where the median differs from the lasting colours, in patches that these make plainer: a ghost goes. Edges of the background that
+/// shake or drift are unsettled too, and get rougher.
+cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
   const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kThick, kThick});
-  cv::morphologyEx(covered, covered, cv::MORPH_OPEN, element);
-  cv::Mat labels, stats, centers, mended = median.clone();
-  lasting.copyTo(mended, covered);
-  const int count = cv::connectedComponentsWithStats(covered, labels, stats, centers, 8);
+  cv::Mat off, labels, stats, centers;
+  cv::absdiff(lasting, median, off);
+  std::vector<cv::Mat> channels;
+  cv::split(off, channels);
+  cv::Mat ghost = cv::max(cv::max(channels[0], channels[1]), channels[2]) > kOff;
+  cv::morphologyEx(ghost, ghost, cv::MORPH_CLOSE, element);
+  cv::morphologyEx(ghost, ghost, cv::MORPH_OPEN, element);
+  cv::Mat mended = median.clone();
+  lasting.copyTo(mended, ghost);
+  const int count = cv::connectedComponentsWithStats(ghost, labels, stats, centers, 8);
   for (int i = 1; i < count; ++i) {
     cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT) - kThick, stats.at<int>(i, cv::CC_STAT_TOP) - kThick,
                  stats.at<int>(i, cv::CC_STAT_WIDTH) + 2 * kThick, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2 * kThick);
@@ -133,8 +141,9 @@ void keep_plainer(const cv::Mat& lasting, const cv::Mat& median, cv::Mat& covere
     const cv::Mat patch = labels(box) == i;
     cv::Mat around;
     cv::dilate(patch, around, element);
-    if (total_variation(mended(box), around) > kPlainer * total_variation(median(box), around)) covered(box).setTo(0, patch);
+    if (total_variation(mended(box), around) > kPlainer * total_variation(median(box), around)) ghost(box).setTo(0, patch);
   }
+  return ghost;
 }
 
 }  // namespace
@@ -161,7 +170,9 @@ void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::M
           describe(column, best, color, spread.at<cv::Vec3b>(y, x));
       }
   });
-  keep_plainer(lasting, picture, covered);
+  cv::Mat near;
+  cv::dilate(ghosts(lasting, picture), near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kAround, kAround}));
+  covered &= near;
   lasting.copyTo(picture, covered);
   spread.copyTo(deviation, covered);
 }
