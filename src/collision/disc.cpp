@@ -15,7 +15,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kWhole = 0.9;         // share of the bounding circle: nothing is missing
-constexpr double kMissing = 0.98;      // share of the disc: more is as good without
+constexpr double kMissing = 0.94;      // share of the disc: more is as good without
 constexpr double kAlike = 1.08;        // ratio of diameters
 constexpr int kFewestAlike = 3;
 constexpr int kDraws = 150;

@@ -26,6 +26,8 @@ constexpr double kSizesDiffer = 0.12;  // of the logarithm of the size ratio
 constexpr double kOverlap = 3.0;       // frame times that two pieces of one flight may share
 constexpr double kAstray = 0.5;        // diameters that the second may begin off where the first leads
 constexpr double kOneFlight = 1.2;     // times the noise, about one parabola through both
+constexpr std::size_t kAbout = 8;      // points to either side that tell the usual size
+constexpr double kOddSize = 0.03, kOddSigmas = 6.0;  // of the logarithm of the size, or σ of its spread
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
 /// One body's flights before and after, by index of arc.
@@ -153,6 +155,24 @@ std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collis
   }
 }
 
+/// Leaves out points whose size is not that of the frames about them: a body that something covers in part, or that merges with another.
+std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points) {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t begin = i < kAbout ? 0 : i - kAbout, end = std::min(points.size(), i + kAbout + 1);
+    const double usual = typical_diameter({points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)});
+    off.push_back(usual > 0.0 && points[i].diameter > 0.0 ? std::abs(std::log(points[i].diameter / usual)) : 0.0);
+  }
+  std::vector<double> sorted = off;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double odd = std::max(kOddSize, kOddSigmas * 1.4826 * *middle);
+  std::vector<Candidate> usual;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (off[i] <= odd) usual.push_back(points[i]);
+  return usual.size() >= 3 ? usual : points;
+}
+
 /// The points of a flight again, from all candidates on its side of the impact, nearest first.
 std::vector<Candidate> reassign(const Candidates& candidates, const Arc& arc, double u, bool before, double noise) {
   const Candidate look = looks_of(arc);
@@ -171,7 +191,7 @@ std::vector<Candidate> reassign(const Candidates& candidates, const Arc& arc, do
     }
     if (best) points.push_back(*best);
   }
-  return points.size() >= 3 ? points : arc.points;
+  return without_odd_sizes(points.size() >= 3 ? points : arc.points);
 }
 
 /// True if the first of the two is the second of the shot's bodies: by labels, by size, else as found.
