@@ -21,6 +21,7 @@ constexpr double kShadowSigmas = 3.0, kShadowGray = 7.0;   // off the background
 constexpr double kWeak = 0.5;                  // of a part's contrast: what is weaker is a shadow already if
 constexpr double kWeakGray = 0.1;              // of a pixel's brightness off the background's colour, where that is
 constexpr int kBright = 200;                   // grey levels or brighter: there sensors begin to clip
+constexpr double kSide = 0.5;                  // of the rest: more is no side of it
 constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
 constexpr double kShadowWhole = 0.85;          // share of a part that makes it a shadow
 constexpr double kCore = 0.15;                 // share of a part that must be left when its shadow is cut off
@@ -124,7 +125,8 @@ void keep_shaded_sides(const cv::Mat& mask, cv::Mat& shadow) {
   const int count = cv::connectedComponentsWithStats(shadow, labels, stats, centers, 4);
   for (int i = 1; i < count; ++i) {
     const cv::Mat piece = labels == i;
-    if (cv::countNonZero(piece & hull) >= kWithin * stats.at<int>(i, cv::CC_STAT_AREA)) shadow.setTo(0, piece);
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    if (area < kSide * static_cast<double>(points.size()) && cv::countNonZero(piece & hull) >= kWithin * area) shadow.setTo(0, piece);
   }
 }
 
