@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -23,6 +24,10 @@ constexpr double kShared = 0.35;        // of its points that an arc may share w
 constexpr double kStep = 0.25;          // of the picture's span that something may move a frame
 
 constexpr double kWander = 0.025;       // diameters
+constexpr double kMuchLess = 0.6;       // of the noise: jitter that neighbours are held to
+constexpr double kRough = 0.1;          // of the noise, added to the jitter
+constexpr std::size_t kNeighbours = 8, kFewestNeighbours = 5;
+constexpr std::size_t kSmoothest = 14;  // points
 constexpr std::size_t kMostFollowed = 8;  // candidates a frame that the noise is taken from
 
 using Key = std::pair<int, int>;        // frame and index of a candidate
@@ -32,7 +37,8 @@ bool can_fly(const Candidate& c) { return c.whole && !c.shadow; }
 /// Grows one arc from a seed.
 class Grower {
  public:
-  Grower(const Candidates& candidates, double noise) : candidates_(candidates), noise_(noise) {}
+  Grower(const Candidates& candidates, double noise, double jitter)
+      : candidates_(candidates), noise_(noise), jitter_(jitter < kMuchLess * noise ? std::hypot(jitter, kRough * noise) : 0.0) {}
 
   std::optional<Arc> grow(int first, int step, const Candidate& a, const Candidate& b, const Candidate& c) {
     CurveSums seed(a.u);
@@ -45,6 +51,7 @@ class Grower {
     if (static_cast<double>(points_.size()) < std::max(3.0, kFilled * (2 * step + 1))) return {};
     extend(first + 2 * step + 1, 1);
     extend(first - 1, -1);
+    if (jitter_ > 0.0 && points_.size() > kSmoothest) grow_again();
     if (points_.size() < kFewest) return {};
     Arc arc;
     for (const auto& [frame, point] : points_) arc.points.push_back(point);
@@ -68,9 +75,44 @@ class Grower {
       const Curve curve = sums_.fit();
       const Candidate& last = direction > 0 ? points_.rbegin()->second : points_.begin()->second;
       const Candidate* found = nearest(k, curve, last, curve.variance_at(candidates_[k].front().u));
+      if (found && !led_to(*found, curve, direction)) found = nullptr;
       if (found) add(*found);
       misses = found ? 0 : misses + 1;
     }
+  }
+
+  /// Grows again from the smoothest stretch: the seed may have had the moment of a push in its middle.
+  void grow_again() {
+    const std::vector<std::pair<int, Candidate>> all(points_.begin(), points_.end());
+    const auto fit = [&](std::size_t begin) {
+      CurveSums sums(all[begin].second.u);
+      for (std::size_t i = begin; i < begin + kSmoothest; ++i) sums.add(all[i].second.u, all[i].second.pixel);
+      return sums;
+    };
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t begin = 0; begin + kSmoothest <= all.size(); begin += 2) {
+      const double squares = fit(begin).fit().squares;
+      if (squares < least) least = squares, best = begin;
+    }
+    sums_ = fit(best);
+    points_ = {all.begin() + static_cast<std::ptrdiff_t>(best), all.begin() + static_cast<std::ptrdiff_t>(best + kSmoothest)};
+    extend(points_.rbegin()->first + 1, 1);
+    extend(points_.begin()->first - 1, -1);
+  }
+
+  /// Whether the points at the end that grows lead to `next`: where they do not, something pushed the body.
+  bool led_to(const Candidate& next, const Curve& curve, int direction) const {
+    if (jitter_ == 0.0 || points_.size() < kFewestNeighbours) return true;
+    CurveSums near(next.u);
+    const auto add_near = [&](auto begin, auto end) {
+      for (auto it = begin; it != end && near.count() < static_cast<int>(kNeighbours); ++it) near.add(it->second.u, it->second.pixel);
+    };
+    if (direction > 0) add_near(points_.rbegin(), points_.rend());
+    else add_near(points_.begin(), points_.end());
+    const Curve local = near.fit(curve.curvature, jitter_ * jitter_ / (noise_ * noise_ * curve.cofactor(2, 2)));
+    const double sigma = jitter_ * std::sqrt(1.0 + local.variance_at(next.u));
+    return (next.pixel - local.at(next.u)).norm() < kGate * sigma;
   }
 
   const Candidate* nearest(int k, const Curve& curve, const Candidate& like, double variance) const {
@@ -89,7 +131,7 @@ class Grower {
   }
 
   const Candidates& candidates_;
-  double noise_;
+  double noise_, jitter_;  ///< px; no jitter = neighbours tell no more than the curve
   std::map<int, Candidate> points_;
   CurveSums sums_{0.0};
 };
@@ -163,18 +205,18 @@ double silhouette_noise(const Shot& shot, const Candidates& candidates, double n
   });
   if (!silhouettes) return noise;
   std::vector<Candidate> flown;
-  for (const Arc& arc : find_arcs(candidates, 2.0 * noise, context))
+  for (const Arc& arc : find_arcs(candidates, 2.0 * noise, noise, context))
     for (const Candidate& c : arc.points)
       if (c.region >= 0) flown.push_back(c);
   return std::max(noise, kWander * typical_diameter(flown));
 }
 
-std::vector<Arc> find_arcs(const Candidates& candidates, double noise, Context& context) {
+std::vector<Arc> find_arcs(const Candidates& candidates, double noise, double jitter, Context& context) {
   const int count = static_cast<int>(candidates.size());
   const double far = kStep * span_of(candidates);
   std::vector<Arc> arcs;
   std::map<Key, std::set<std::size_t>> member;  // arcs of eight points or more that a candidate belongs to
-  Grower grower(candidates, noise);
+  Grower grower(candidates, noise, jitter);
   const auto together = [&](const Key& a, const Key& b, const Key& c) {
     const auto ia = member.find(a), ib = member.find(b), ic = member.find(c);
     if (ia == member.end() || ib == member.end() || ic == member.end()) return false;

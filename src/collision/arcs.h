@@ -26,7 +26,8 @@ double silhouette_noise(const Shot& shot, const Candidates& candidates, double n
 
 /// All stretches of flight, longest first, each candidate in at most one or (at the ends) two. Seeds are triples of candidates at
 /// equal steps; they grow frame by frame while the next one lies where it should and looks alike (thesis Section 5.3.2 draws them at
-/// random).
-std::vector<Arc> find_arcs(const Candidates& candidates, double noise, Context& context);
+/// random). `noise` is what candidates may be off their parabola; `jitter`, if it is much less, what they may be off where their
+/// neighbours lead: silhouettes of turning bodies wander, but slowly.
+std::vector<Arc> find_arcs(const Candidates& candidates, double noise, double jitter, Context& context);
 
 }  // namespace unseen::collision

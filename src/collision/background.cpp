@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/lasting.h"
 #include "collision/resting.h"
 
 namespace unseen::collision {
@@ -124,6 +125,7 @@ Background find_background(const std::vector<cv::Mat>& frames, const Context& co
   if (even.empty()) even = frames;
   cv::Mat deviation;
   background.picture = median_picture(even, &deviation, context);
+  restore_lasting(even, background.picture, deviation, context);
   background.noise = noise_of(deviation);
   remove_resting(even, background.noise, background.picture);
   return background;

@@ -28,8 +28,8 @@ class FrameSample {
   int added_ = 0, stride_ = 1;
 };
 
-/// Median over the frames, brightness evened out; what rests in one place for longer than it is away is told from the true background
-/// by its outline. Noise: 1.4826 · median absolute deviation, smoothed.
+/// Median over the frames, brightness evened out, or the colour that lasts where bodies linger; what rests in one place for longer than
+/// it is away is told from the true background by its outline. Noise: 1.4826 · median absolute deviation, smoothed.
 Background find_background(const std::vector<cv::Mat>& frames, const Context& context);
 
 /// Factor by which `frame` is brighter than the background, a channel each: what most pixels agree on.

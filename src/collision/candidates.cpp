@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <optional>
+
+#include "collision/disc.h"
 
 namespace unseen::collision {
 namespace {
@@ -26,11 +29,30 @@ Vec2 undistorted(const Vec2& pixel, const ShotCamera& camera) {
   return {to[0].x, to[0].y};
 }
 
+/// Where a ball's centre projects to, from the middle of its outline: an ellipse that reaches farther out. With tan a = radius over
+/// depth, the middle is 1 / (1 − tan² a) times as far from the principal point.
+Vec2 projected_center(const Vec2& middle, double diameter, const Camera& camera) {
+  const double tangent = 0.5 * diameter / std::sqrt(camera.fx * camera.fy);
+  const Vec2 principal(camera.cx, camera.cy);
+  return principal + (1.0 - tangent * tangent) * (middle - principal);
+}
+
+/// Diameters of the regions that are discs, ascending.
+std::vector<double> whole_discs(const Footage& footage) {
+  std::vector<double> diameters;
+  for (const auto& frame : footage.regions)
+    for (const Region& r : frame)
+      if (is_disc(r)) diameters.push_back(2.0 * std::sqrt(r.area / kPi));
+  std::sort(diameters.begin(), diameters.end());
+  return diameters;
+}
+
 }  // namespace
 
 Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres) {
   Candidates candidates(footage.regions.size());
   const double largest = kLargestShare * footage.width * footage.height;
+  const std::vector<double> wholes = spheres ? whole_discs(footage) : std::vector<double>();
   for (std::size_t k = 0; k < footage.regions.size(); ++k) {
     if (footage.doubled[k]) continue;
     for (std::size_t i = 0; i < footage.regions[k].size() && candidates[k].size() < kMost; ++i) {
@@ -39,14 +61,16 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
       Candidate c;
       c.frame = static_cast<int>(k);
       c.u = footage.times[k] * footage.fps;
-      c.pixel = undistorted(r.centroid, camera);
+      const std::optional<Disc> disc = spheres ? covered_disc(r, wholes) : std::nullopt;
+      c.pixel = undistorted(disc ? disc->center : r.centroid, camera);
       if (!footage.shift.empty()) {
         const cv::Mat& m = footage.shift[k];
         c.pixel = {m.at<double>(0, 0) * c.pixel.x() + m.at<double>(0, 1) * c.pixel.y() + m.at<double>(0, 2),
                    m.at<double>(1, 0) * c.pixel.x() + m.at<double>(1, 1) * c.pixel.y() + m.at<double>(1, 2)};
       }
-      c.diameter = spheres ? r.diameter : 2.0 * std::sqrt(r.area / kPi);
-      c.area = r.area;
+      c.diameter = disc ? disc->diameter : spheres ? r.diameter : 2.0 * std::sqrt(r.area / kPi);
+      if (spheres) c.pixel = projected_center(c.pixel, c.diameter, camera.camera);
+      c.area = disc ? 0.25 * kPi * disc->diameter * disc->diameter : r.area;
       c.color = r.color;
       c.colored = true;
       c.whole = !r.at_border;

@@ -173,8 +173,8 @@ void correct_times(std::vector<Candidate>& track, double noise, const Shot& shot
 
 Tracks find_chain(const Shot& shot, const Candidates& candidates, int body, double fps, double least_noise, Context& context) {
   Tracks tracks;
-  const double noise = silhouette_noise(shot, candidates, estimate_noise(candidates, least_noise), context);
-  const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, context), noise);
+  const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
+  const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
   if (arcs.empty()) {
     tracks.unexplained = unexplained_frames(candidates, {}, 0.0);
     return tracks;

@@ -19,7 +19,10 @@ constexpr double kLargestShare = 0.3;           // of the picture that a part's 
 constexpr double kShadowLeast = 0.25, kShadowMost = 0.97;  // of the background's light
 constexpr double kShadowSigmas = 3.0, kShadowGray = 7.0;   // off the background's colour
 constexpr double kWeak = 0.5;                  // of a part's contrast: what is weaker is a shadow already if
-constexpr double kWeakGray = 0.1;              // of a pixel's brightness off the background's colour
+constexpr double kWeakGray = 0.1;              // of a pixel's brightness off the background's colour, where that is
+constexpr int kBright = 200;                   // grey levels or brighter: there sensors begin to clip
+constexpr double kSide = 0.5;                  // of the rest: more is no side of it
+constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
 constexpr double kShadowWhole = 0.85;          // share of a part that makes it a shadow
 constexpr double kCore = 0.15;                 // share of a part that must be left when its shadow is cut off
 constexpr double kHalf = 0.45;                 // of the local contrast
@@ -55,7 +58,7 @@ cv::Mat threshold_of(const Background& background, double edge_slack) {
 }
 
 /// 255 where a pixel could be the background with less light: the same colour, darker. Where the difference from the background is
-/// below `weak`, the colour may be farther off: bright surfaces lose their tint in a clipped picture.
+/// below `weak` and the background is nearly clipped, the colour may be farther off: bright surfaces lose their tint.
 cv::Mat shadow_mask(const cv::Mat& frame, const cv::Mat& background, const cv::Mat& noise, const cv::Mat& difference, int weak) {
   cv::Mat mask = cv::Mat::zeros(frame.size(), CV_8U);
   for (int y = 0; y < frame.rows; ++y)
@@ -64,7 +67,8 @@ cv::Mat shadow_mask(const cv::Mat& frame, const cv::Mat& background, const cv::M
       const double bb = b.ddot(b), fb = f.ddot(b), share = bb > 0.0 ? fb / bb : 1.0;
       if (share < kShadowLeast || share > kShadowMost) continue;
       double limit = std::max(kShadowGray, kShadowSigmas * noise.at<float>(y, x));
-      if (difference.at<unsigned char>(y, x) < weak) limit = std::max(limit, kWeakGray * share * std::sqrt(bb));
+      const bool bright = std::max({b[0], b[1], b[2]}) >= kBright;
+      if (bright && difference.at<unsigned char>(y, x) < weak) limit = std::max(limit, kWeakGray * share * std::sqrt(bb));
       bool same = true;
       for (int c = 0; c < 3; ++c) same = same && std::abs(f[c] - share * b[c]) < limit;
       if (same) mask.at<unsigned char>(y, x) = 255;
@@ -108,6 +112,24 @@ double high_contrast(const cv::Mat& difference, const cv::Mat& mask) {
   return *at;
 }
 
+/// Takes out of `shadow` the pieces that lie within the convex hull of the rest of `mask`: a shadow falls beside its body.
+void keep_shaded_sides(const cv::Mat& mask, cv::Mat& shadow) {
+  cv::Mat lit = mask & ~shadow, labels, stats, centers;
+  cv::morphologyEx(lit, lit, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  std::vector<cv::Point> points, corners;
+  cv::findNonZero(lit, points);
+  if (points.size() < 3) return;
+  cv::convexHull(points, corners);
+  cv::Mat hull = cv::Mat::zeros(mask.size(), CV_8U);
+  cv::fillConvexPoly(hull, corners, cv::Scalar(255));
+  const int count = cv::connectedComponentsWithStats(shadow, labels, stats, centers, 4);
+  for (int i = 1; i < count; ++i) {
+    const cv::Mat piece = labels == i;
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
+    if (area < kSide * static_cast<double>(points.size()) && cv::countNonZero(piece & hull) >= kWithin * area) shadow.setTo(0, piece);
+  }
+}
+
 cv::Rect padded(cv::Rect box, int by, cv::Size size) {
   return cv::Rect(box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by) & cv::Rect({0, 0}, size);
 }
@@ -116,10 +138,11 @@ cv::Rect padded(cv::Rect box, int by, cv::Size size) {
 bool refine(const cv::Mat& frame, const Background& background, const cv::Mat& d, Part& part) {
   const cv::Mat contrast = d(part.box);
   const int weak = static_cast<int>(kWeak * high_contrast(contrast, part.mask));
-  const cv::Mat shadow = shadow_mask(frame(part.box), background.picture(part.box), background.noise(part.box), contrast, weak) & part.mask;
-  const int area = cv::countNonZero(part.mask), dark = cv::countNonZero(shadow);
-  part.shadow = dark > kShadowWhole * area;
-  if (!part.shadow && dark > 0) {
+  cv::Mat shadow = shadow_mask(frame(part.box), background.picture(part.box), background.noise(part.box), contrast, weak) & part.mask;
+  const int area = cv::countNonZero(part.mask);
+  part.shadow = cv::countNonZero(shadow) > kShadowWhole * area;
+  if (!part.shadow) {
+    keep_shaded_sides(part.mask, shadow);
     cv::Mat lit = part.mask & ~shadow;
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
     cv::morphologyEx(lit, lit, cv::MORPH_OPEN, element, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));

@@ -7,6 +7,7 @@
 #include "collision/flight_search.h"
 #include "collision/tracks.h"
 #include "collision/two_body.h"
+#include "collision/which_body.h"
 
 namespace unseen::collision {
 namespace {
@@ -33,7 +34,9 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const Footage& fo
   const bool spheres = std::all_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& b) {
     return b.shape == Shape::sphere || b.shape == Shape::fixed;
   });
-  return label(shot, candidates_of(footage, camera, spheres), footage.fps, kLeastRegionNoise, context);
+  Tracks tracks = label(shot, candidates_of(footage, camera, spheres), footage.fps, kLeastRegionNoise, context);
+  if (only_free_body(shot) < 0) label_by_shape(shot, camera, footage, tracks);
+  return tracks;
 }
 
 Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector<Sighting>& sightings, double fps, Context& context) {

@@ -63,10 +63,10 @@ void look_for_drag(const Shot& shot, const std::vector<SolvedImpact>& impacts, C
 }
 
 /// Labels come from sizes; sizes that are alike tell little.
-void doubt_labels(const Shot& shot, const SolvedImpact& impact, Reconstruction& result, Context& context) {
+void doubt_labels(const Shot& shot, const Tracks& tracks, const SolvedImpact& impact, Reconstruction& result, Context& context) {
   constexpr double kAlike = 0.15;  // share
   const auto& solids = impact.solution.problem.solids;
-  if (shot.video.empty() || impact.solution.problem.fixed || !result.mass_ratio) return;
+  if (shot.video.empty() || tracks.told_apart || impact.solution.problem.fixed || !result.mass_ratio) return;
   if (std::abs(std::log(solids[0].mass.extent / solids[1].mass.extent)) > kAlike) return;
   context.warn(fmt::format("{} and {} are alike in size: they may have been taken for each other", shot.bodies[0].name, shot.bodies[1].name));
   result.ambiguous.push_back({"the two bodies taken for each other", impact.uncertain.restitution.value, 1.0 / result.mass_ratio->value, 0.0});
@@ -81,13 +81,16 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
 }
 
 void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
-  doubt_labels(shot, impacts.front(), result, context);
+  doubt_labels(shot, tracks, impacts.front(), result, context);
   compare_scales(shot, impacts, context);
   look_for_drag(shot, impacts, context);
   if (result.fixed.empty() && tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
-  if (!result.fits)
+  const bool refused = std::any_of(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return !i.check.reasons.empty(); });
+  if (!result.fits && refused)
     for (const SolvedImpact& impact : impacts)
       for (const std::string& reason : impact.check.reasons) context.warn("the model does not fit: " + reason);
+  else if (!result.fits)
+    context.warn("no confident restitution: it ends on a bound, 0 or 1");
   else if (!result.restitution)
     context.warn("no confident restitution: the flights tell too little of it");
 }

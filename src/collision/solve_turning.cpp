@@ -3,8 +3,11 @@
 #include "collision/solve_turning.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "collision/centering.h"
+#include "collision/rotation.h"
 #include "collision/unknowns.h"
 
 namespace unseen::collision {
@@ -12,6 +15,7 @@ namespace {
 
 constexpr int kKept = 3;     // rotations of a flight that are looked at
 constexpr int kCombined = 8;  // combinations of them that are solved
+constexpr double kHopeless = 150.0;  // χ² above the best one's
 
 /// Given orientations within the flights that meet in this impact.
 std::vector<OrientationObservation> given(const Shot& shot, const Problem& problem) {
@@ -58,7 +62,46 @@ std::vector<Combination> combinations(const std::vector<std::vector<Spin>>& spin
     }
   std::stable_sort(all.begin(), all.end(), [](const Combination& a, const Combination& b) { return a.cost < b.cost; });
   if (all.size() > kCombined) all.resize(kCombined);
+  std::erase_if(all, [least = all.front().cost](const Combination& c) { return c.cost > least + kHopeless; });
   return all;
+}
+
+/// Where the bodies are by an impact's solution, turned as the film's rotations have it.
+PoseOf poses_of(const SolvedImpact& impact, const Combination& combination, const Tracks& tracks) {
+  return [&](const PointObservation& point, Vec3& center, Quat& q) {
+    const Problem& problem = impact.solution.problem;
+    center = position_at<double>(problem, values_of(problem, impact.solution.fit.state), point.body, point.after, point.time);
+    const Solid& solid = problem.solids[static_cast<std::size_t>(point.body)];
+    q = Quat::Identity();
+    if (solid.is_sphere()) return true;
+    const std::vector<int>& spans = point.after ? impact.meeting.after : impact.meeting.before;
+    for (const Spin* spin : combination.spins) {
+      if (tracks.spans[spin->span].body != point.body || std::find(spans.begin(), spans.end(), spin->span) == spans.end()) continue;
+      q = spin->q * solid.file_to_principal.conjugate();
+      const Vec3 h = q * solid.mass.inertia.cwiseProduct(q.conjugate() * spin->omega);
+      q = turned<double>(q, h, solid.mass.inertia, point.time - spin->time);
+      return true;
+    }
+    return false;
+  };
+}
+
+/// Where the bodies are and how they are turned by a solution.
+PoseOf poses_of(const Solution& solution) {
+  return [&](const PointObservation& point, Vec3& center, Quat& q) {
+    const Problem& problem = solution.problem;
+    center = position_at<double>(problem, values_of(problem, solution.fit.state), point.body, point.after, point.time);
+    q = orientation_at(problem, solution.fit.state, point.body, point.after, point.time);
+    return problem.solids[static_cast<std::size_t>(point.body)].is_sphere() || problem.turns(point.body);
+  };
+}
+
+/// Solves again with centres that the solution's own orientations give.
+void center_again(const std::vector<PointObservation>& seen, const std::array<FigureMaker, 2>& makers, Solution& solution) {
+  Solution next = solution;
+  next.problem.points = centered(seen, solution.problem, makers, poses_of(solution));
+  next.fit = settle(next.problem, solution.fit.state);
+  if (next.fit.usable) solution = std::move(next);
 }
 
 Problem with_orientations(Problem problem, const Combination& combination, const Tracks& tracks, const Tracks::Meeting& meeting) {
@@ -75,16 +118,32 @@ Problem with_orientations(Problem problem, const Combination& combination, const
   return problem;
 }
 
+/// χ² of a solution by the noise that was expected, which all combinations share, instead of the noise that its own residuals have.
+double comparable_cost(const Solution& solution, const Problem& expected) {
+  const auto squares = [&](const std::string& term, double count, double noise) {
+    const auto it = solution.fit.terms.find(term);
+    return it == solution.fit.terms.end() ? 0.0 : count * std::pow(noise * it->second, 2);
+  };
+  double sum = 0.0;
+  for (const auto& [term, value] : solution.fit.terms)
+    if (term != "points" && term != "orientation") sum += squares(term, 1.0, 1.0);
+  return sum + squares("points", 2.0 * static_cast<double>(expected.points.size()), solution.problem.pixel_sigma / expected.pixel_sigma) +
+         squares("orientation", 3.0 * static_cast<double>(expected.orientations.size()), solution.problem.orientation_sigma / expected.orientation_sigma);
+}
+
 /// Solves with the film's rotations; those that the impact cannot join cost more than those that it can.
-Solution solve_with(const std::vector<std::vector<Spin>>& spins, const SolvedImpact& impact, const Tracks& tracks, int starts, Context& context) {
+Solution solve_with(const std::vector<std::vector<Spin>>& spins, const SolvedImpact& impact, const Tracks& tracks,
+                    const std::array<FigureMaker, 2>& makers, int starts, Context& context) {
   Solution best;
   double best_cost = 0.0;
   std::vector<std::pair<double, Solution>> solved;
   for (const Combination& combination : combinations(spins, impact.meeting)) {
     if (combination.spins.empty()) break;
-    const Problem problem = with_orientations(impact.solution.problem, combination, tracks, impact.meeting);
+    Problem problem = with_orientations(impact.solution.problem, combination, tracks, impact.meeting);
+    problem.points = centered(problem.points, problem, makers, poses_of(impact, combination, tracks));
     Solution solution = best_fit(problem, impact.solution.fit.state.time, starts, context);
-    if (solution.fit.usable) solved.emplace_back(solution.score + 0.5 * combination.cost, std::move(solution));
+    const double cost = 0.5 * (combination.cost + comparable_cost(solution, problem));
+    if (solution.fit.usable) solved.emplace_back(cost, std::move(solution));
   }
   for (auto& [cost, solution] : solved)
     if (!best.fit.usable || cost < best_cost) best_cost = cost, best = solution;
@@ -109,13 +168,16 @@ void solve_turning(const Shot& shot, const Options& options, const ShotCamera& c
   Solution solution;
   Problem problem = impact.solution.problem;
   problem.orientations = given(shot, problem);
+  const std::vector<PointObservation> seen = problem.points;
+  const std::array<FigureMaker, 2> makers = {FigureMaker(shot.bodies[0], shot.name), FigureMaker(shot.bodies[1], shot.name)};
   if (!problem.orientations.empty()) {
     solution = best_fit(problem, impact.solution.fit.state.time, options.starts, context);
   } else if (!footage.regions.empty()) {
     constexpr int kStarts = 2;  // the film's rotations leave no turns open
     const std::vector<std::vector<Spin>> spins = find_spins(shot, camera, footage, tracks, centers_of(impact, tracks), kKept, context);
-    solution = solve_with(spins, impact, tracks, kStarts, context);
+    solution = solve_with(spins, impact, tracks, makers, kStarts, context);
   }
+  if (solution.fit.usable && !footage.regions.empty()) center_again(seen, makers, solution);
   if (solution.fit.usable) impact.solution = std::move(solution);
 }
 

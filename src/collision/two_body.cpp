@@ -3,6 +3,7 @@
 #include "collision/two_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "collision/arcs.h"
@@ -22,6 +23,11 @@ constexpr double kOneCollision = 4.0;  // frame times between two collisions
 constexpr std::size_t kMostArcs = 60;
 constexpr double kGate = 3.5;          // σ, of points that are assigned to a flight
 constexpr double kSizesDiffer = 0.12;  // of the logarithm of the size ratio
+constexpr double kOverlap = 3.0;       // frame times that two pieces of one flight may share
+constexpr double kAstray = 0.5;        // diameters that the second may begin off where the first leads
+constexpr double kOneFlight = 1.2;     // times the noise, about one parabola through both
+constexpr std::size_t kAbout = 8;      // points to either side that tell the usual size
+constexpr double kOddSize = 0.03, kOddSigmas = 6.0;  // of the logarithm of the size, or σ of its spread
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
 /// One body's flights before and after, by index of arc.
@@ -91,12 +97,80 @@ std::vector<Collision> collisions_of(const std::vector<Arc>& arcs, const std::ve
   return found;
 }
 
-/// Collisions at clearly different times.
-int count_collisions(const std::vector<Collision>& found) {
-  std::vector<double> times;
-  for (const Collision& c : found)
+std::array<std::size_t, 4> pieces_of(const Collision& c) { return {c.a.before, c.b.before, c.a.after, c.b.after}; }
+
+/// Collisions at clearly different times; on one side at least, another has flights of its own, of arcs that the first one has not `used`.
+int count_collisions(const std::vector<Collision>& found, const std::vector<char>& used) {
+  std::vector<double> times = {found.front().u};
+  for (const Collision& c : found) {
+    if ((used[c.a.before] || used[c.b.before]) && (used[c.a.after] || used[c.b.after])) continue;
     if (std::none_of(times.begin(), times.end(), [&](double u) { return std::abs(u - c.u) < kOneCollision; })) times.push_back(c.u);
+  }
   return static_cast<int>(times.size());
+}
+
+/// The arc with those points of another that are outside its time.
+Arc with(const Arc& arc, const Arc& other) {
+  Arc both = arc;
+  for (const Candidate& c : other.points)
+    if (c.u < arc.begin() || c.u > arc.end()) both.points.push_back(c);
+  std::stable_sort(both.points.begin(), both.points.end(), [](const Candidate& a, const Candidate& b) { return a.u < b.u; });
+  CurveSums sums(both.begin());
+  for (const Candidate& c : both.points) sums.add(c.u, c.pixel);
+  both.curve = sums.fit();
+  both.noise = std::sqrt(both.curve.squares / std::max(1.0, 2.0 * static_cast<double>(both.points.size()) - 6.0));
+  return both;
+}
+
+/// How far, in σ, the nearer end of `other` is from where the arc leads; more than kGate if it cannot be the same flight.
+double continues(const Arc& arc, const Arc& other, double noise) {
+  constexpr double kNo = 1e9;
+  const bool later = other.begin() > arc.begin();
+  const double overlap = later ? arc.end() - other.begin() : other.end() - arc.begin();
+  if (overlap > kOverlap || unlikeness(looks_of(arc), looks_of(other)) > kUnlike) return kNo;
+  const Candidate& end = later ? other.points.front() : other.points.back();
+  const double away = (end.pixel - arc.curve.at(end.u)).norm(), diameter = typical_diameter(arc.points);
+  if (diameter > 0.0 && away > kAstray * diameter) return kNo;
+  if (with(arc, other).noise > kOneFlight * noise) return kNo;
+  return away / (noise * std::sqrt(2.0 * (1.0 + arc.curve.variance_at(end.u))));
+}
+
+/// The four arcs, each with others that continue it on its side of the impact: silhouettes that merged part a flight. Marks all that
+/// are `used`.
+std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collision, double noise, std::vector<char>& used) {
+  std::vector<Arc> flights;
+  for (const std::size_t i : pieces_of(collision)) flights.push_back(arcs[i]), used[i] = 1;
+  while (true) {
+    double best = kGate;
+    std::size_t flight = 0, piece = arcs.size();
+    for (std::size_t f = 0; f < flights.size(); ++f)
+      for (std::size_t i = 0; i < arcs.size(); ++i) {
+        if (used[i] || (f < 2 ? arcs[i].end() > collision.u + 1.0 : arcs[i].begin() < collision.u - 1.0)) continue;
+        const double off = continues(flights[f], arcs[i], noise);
+        if (off < best) best = off, flight = f, piece = i;
+      }
+    if (piece == arcs.size()) return flights;
+    flights[flight] = with(flights[flight], arcs[piece]);
+    used[piece] = 1;
+  }
+}
+
+/// Leaves out points whose size is not that of the frames about them: a body that something covers in part, or that merges with another.
+std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points) {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t begin = i < kAbout ? 0 : i - kAbout, end = std::min(points.size(), i + kAbout + 1);
+    const double usual = typical_diameter({points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)});
+    off.push_back(usual > 0.0 && points[i].diameter > 0.0 ? std::abs(std::log(points[i].diameter / usual)) : 0.0);
+  }
+  std::vector<double> sorted = off;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double odd = std::max(kOddSize, kOddSigmas * 1.4826 * *middle);
+  std::vector<Candidate> usual;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (off[i] <= odd) usual.push_back(points[i]);
+  return usual.size() >= 3 ? usual : points;
 }
 
 /// The points of a flight again, from all candidates on its side of the impact, nearest first.
@@ -117,7 +191,7 @@ std::vector<Candidate> reassign(const Candidates& candidates, const Arc& arc, do
     }
     if (best) points.push_back(*best);
   }
-  return points.size() >= 3 ? points : arc.points;
+  return without_odd_sizes(points.size() >= 3 ? points : arc.points);
 }
 
 /// True if the first of the two is the second of the shot's bodies: by labels, by size, else as found.
@@ -181,10 +255,13 @@ Tracks without_collision(const Shot& shot, const Candidates& candidates, const s
   return tracks;
 }
 
-Tracks with_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, const Collision& best, double noise, double fps) {
-  std::vector<std::vector<Candidate>> flights{
-      reassign(candidates, arcs[best.a.before], best.u, true, noise), reassign(candidates, arcs[best.b.before], best.u, true, noise),
-      reassign(candidates, arcs[best.a.after], best.u, false, noise), reassign(candidates, arcs[best.b.after], best.u, false, noise)};
+Tracks with_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, const std::vector<Collision>& found, double noise,
+                      double fps) {
+  const Collision& best = found.front();
+  std::vector<char> used(arcs.size(), 0);
+  const std::vector<Arc> whole = continued(arcs, best, noise, used);
+  std::vector<std::vector<Candidate>> flights;
+  for (std::size_t i = 0; i < 4; ++i) flights.push_back(reassign(candidates, whole[i], best.u, i < 2, noise));
   if (swapped(shot, joined(flights[0], flights[2]), joined(flights[1], flights[3]))) {
     std::swap(flights[0], flights[1]);
     std::swap(flights[2], flights[3]);
@@ -198,20 +275,19 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
   double u = common_time(links[0], links[1]);
   if (std::abs(u - best.u) > kSameTime) u = best.u;
   tracks.meetings.push_back({u / fps, {0, 1}, {2, 3}});
+  tracks.collisions_seen = count_collisions(found, used);
   return tracks;
 }
 
 }  // namespace
 
 Tracks find_pair(const Shot& shot, const Candidates& candidates, double fps, double least_noise, Context& context) {
-  const double noise = silhouette_noise(shot, candidates, estimate_noise(candidates, least_noise), context);
-  std::vector<Arc> arcs = find_arcs(candidates, noise, context);
+  const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
+  std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
   const std::vector<Collision> found = collisions_of(arcs, links_of(arcs, noise, fps), noise);
   if (found.empty()) return without_collision(shot, candidates, arcs, fps);
-  Tracks tracks = with_collision(shot, candidates, arcs, found.front(), noise, fps);
-  tracks.collisions_seen = count_collisions(found);
-  return tracks;
+  return with_collision(shot, candidates, arcs, found, noise, fps);
 }
 
 }  // namespace unseen::collision

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/contact.h"
+#include "collision/contact_law.h"
 #include "unseen/core/error.h"
 #include "unseen/core/random.h"
 
@@ -80,14 +81,16 @@ TEST(Contact, OfACornerOnAFaceIsTheCorner) {
   EXPECT_NEAR(near->gap, 0.0, 1e-9);
   EXPECT_LT((near->normal - Vec3::UnitZ()).norm(), 1e-9);
   EXPECT_LT((near->point_a - Vec3(0.1, 0.2, 0.1)).norm(), 1e-9);
-  EXPECT_LT(near->slack.norm(), 1e-12);
+  EXPECT_LT(near->features[0].extent.norm(), 1e-12);  // a corner
+  EXPECT_GT(near->features[1].extent.maxCoeff(), 0.5);  // a face
 }
 
-TEST(Contact, OfTwoFacesHasTheSlackOfTheirOverlap) {
+TEST(Contact, OfTwoFacesMayBeAnywhereOnBoth) {
   const Solid a = solid_of(box(Vec3(0.2, 0.1, 0.1)), ""), b = solid_of(box(Vec3(1, 1, 0.2)), "");
   const auto near = nearest(a, Vec3(0.0, 0.0, 0.15), Quat::Identity(), b, Vec3::Zero(), Quat::Identity(), 0.002);
   ASSERT_TRUE(near);
-  EXPECT_NEAR(near->slack.maxCoeff(), 0.1, 0.005);
+  EXPECT_NEAR(near->features[0].extent.maxCoeff(), 0.1, 0.005);
+  EXPECT_NEAR(near->features[1].extent.maxCoeff(), 0.5, 0.005);
   EXPECT_LT((near->point_a - Vec3(0, 0, 0.1)).norm(), 1e-9);
 }
 
@@ -96,6 +99,32 @@ TEST(Contact, WithAPlaneIsTheLowestCorner) {
   const Quat q = Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3(0, 0, -1));
   const Proximity near = nearest_to_plane(a, Vec3(0, 0, 1), q, Vec3::UnitZ(), 0.002);
   EXPECT_LT((near.point_a - Vec3(0, 0, 1 - 0.05 * std::sqrt(3.0))).norm(), 1e-9);
+}
+
+/// The normal, the gap along it and the points on the features follow small motions as a new search finds them.
+TEST(Contact, TheLawFollowsTheBodies) {
+  Random random(5);
+  const Solid boxes[] = {solid_of(box(Vec3(0.2, 0.1, 0.05)), ""), solid_of(box(Vec3(0.1, 0.15, 0.12)), "")};
+  Body round;
+  round.shape = Shape::sphere;
+  round.radius = 0.06;
+  const Solid ball = solid_of(round, "");
+  const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
+  int edges = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Solid &a = i % 3 == 1 ? ball : boxes[0], &b = i % 3 == 2 ? ball : boxes[1];
+    std::array<Vec3, 2> p = {0.25 * any().normalized(), Vec3::Zero()};
+    std::array<Quat, 2> q = {rotation_by<double>(any()), rotation_by<double>(any())};
+    const auto near = nearest(a, p[0], q[0], b, p[1], q[1], 1e-6);
+    ASSERT_TRUE(near);
+    EXPECT_LT((normal_by<double>(near->law, p, q) - near->normal).norm(), 1e-9);
+    for (int o = 0; o < 2; ++o) p[o] += 1e-5 * any(), q[o] = rotation_by<double>(Vec3(1e-5 * any())) * q[o];
+    const auto moved = nearest(a, p[0], q[0], b, p[1], q[1], 1e-6);
+    if (moved->law.kind != near->law.kind || moved->law.a != near->law.a || moved->law.b != near->law.b || moved->law.sign != near->law.sign) continue;
+    edges += near->law.kind == ContactLaw::Kind::edges;
+    EXPECT_LT((normal_by<double>(near->law, p, q) - moved->normal).norm(), 1e-9) << i;
+  }
+  EXPECT_GT(edges, 3);
 }
 
 }  // namespace

@@ -181,6 +181,25 @@ TEST(Regions, WhatRestsMostOfTheTimeIsNoBackground) {
   for (const Region& r : footage.regions[2]) EXPECT_TRUE((r.centroid - place(2)).norm() < 1.0 || r.area < 60.0);  // no ghost of it
 }
 
+TEST(Regions, ABodyThatLingersLeavesNoGhost) {
+  const Scratch scratch("linger");
+  const std::string path = scratch.file("linger.avi");
+  const cv::Mat background = wall();
+  const auto place = [](int k) { return Vec2(160.0 + 0.9 * (k - 30), 60.0 + 0.06 * (k - 30) * (k - 30)); };  // its top covers some pixels in two frames of three
+  Random random(2);
+  write_video(path, 60, [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, place(k), 26.0, cv::Scalar(120 + 110 * std::cos(0.3 * k), 120 + 110 * std::sin(0.3 * k), 220));  // it turns
+    add_noise(frame, 2.0, random);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  EXPECT_LT(worst_error(footage, 1, 58, place), 1.0);
+  for (const int k : {2, 57})
+    for (const Region& r : footage.regions[k]) EXPECT_TRUE((r.centroid - place(k)).norm() < 2.0 || r.area < 60.0) << k;
+}
+
 TEST(Regions, AShadowIsCutOffOrMarked) {
   const Scratch scratch("shadow");
   const std::string path = scratch.file("shadow.avi");

@@ -223,6 +223,21 @@ TEST(Pair, MissingFramesAndAHiddenImpact) {
   expect_pair(find_tracks(pair_shot(0.08, 0.05), camera(), both(motion, 0.08, 0.05, 0.7, 0.3, random, 6), kFps, context), motion, 0.5, 12);
 }
 
+TEST(Pair, AFlightGoesOnWhereSilhouettesHadMerged) {
+  Random random(17);
+  const Meeting motion;
+  std::vector<Sighting> sightings = both(motion, 0.08, 0.05, 0.5, 0.0, random);
+  std::erase_if(sightings, [](const Sighting& s) { return s.frame > 68 && s.frame < 80; });
+  Context context;
+  const Tracks tracks = find_tracks(pair_shot(0.08, 0.05), camera(), sightings, kFps, context);
+  expect_pair(tracks, motion, 0.5, 20);
+  for (const int s : tracks.meetings[0].after) {
+    EXPECT_LT(tracks.points[tracks.spans[static_cast<std::size_t>(s)].begin].frame, 64);
+    EXPECT_GT(tracks.points[tracks.spans[static_cast<std::size_t>(s)].end - 1].frame, 95);
+  }
+  EXPECT_EQ(tracks.collisions_seen, 1);
+}
+
 TEST(Pair, AThirdMoverIsLeftOut) {
   Random random(8);
   const Meeting motion;
