@@ -173,7 +173,7 @@ void solve_turning(const Shot& shot, const Options& options, const ShotCamera& c
   if (!problem.orientations.empty()) {
     solution = best_fit(problem, impact.solution.fit.state.time, options.starts, context);
   } else if (!footage.regions.empty()) {
-    constexpr int kStarts = 2;  // the film's rotations leave no turns open
+    constexpr int kStarts = 4;  // the film's rotations leave no turns open
     const std::vector<std::vector<Spin>> spins = find_spins(shot, camera, footage, tracks, centers_of(impact, tracks), kKept, context);
     solution = solve_with(spins, impact, tracks, makers, kStarts, context);
   }

@@ -179,25 +179,63 @@ std::vector<Vec3> possible_offsets(const Problem& problem, const std::array<Line
   return possible.empty() ? sphere_directions(kDirections) : possible;
 }
 
-/// Both shapes known: all ways in which they can touch, each with the impulse that explains the flights best.
+/// Both shapes known: how well an impact with the centres' offset along a direction explains the flights.
+class TouchingStarts {
+ public:
+  TouchingStarts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights)
+      : problem_(problem), fit_(problem, base, flights[0], flights[1]) {}
+
+  std::optional<Ranked> at(const Pair& pair, const Vec3& direction) const {
+    constexpr double kBeyond = 0.1;  // restitution outside [0,1]
+    const std::optional<Touching> touching = touch_along(problem_.solids[0], pair.a.q, problem_.solids[1], pair.b.q, direction);
+    if (!touching) return std::nullopt;
+    auto [cost, s] = fit_(*touching, pair.a.turn(), pair.b.turn());
+    s.q = {pair.a.q, pair.b.q};
+    share_change(pair.a, touching->arm_a.cross(s.impulse), s.h[0], s.h_after[0]);
+    share_change(pair.b, Vec3(-touching->arm_b.cross(s.impulse) / s.mass_ratio), s.h[1], s.h_after[1]);
+    s.law.emplace();
+    s.law->a = touching->normal;
+    const double c = restitution<double>(problem_, s, values_of(problem_, s)), beyond = std::max({0.0, -c, c - 1.0}) / kBeyond;
+    return Ranked{cost + pair.cost() + 0.5 * beyond * beyond, s};
+  }
+
+  /// From there to the best direction nearby.
+  Ranked refined(const Pair& pair, Ranked best) const {
+    constexpr int kRounds = 16;
+    double step = 0.08;  // rad
+    for (int round = 0; round < kRounds; ++round) {
+      const Vec3 direction = (best.state.p[0] - best.state.p[1]).normalized(), e1 = any_orthogonal(direction), e2 = direction.cross(e1);
+      bool better = false;
+      for (const Vec3& side : {e1, e2, Vec3(-e1), Vec3(-e2)}) {
+        const std::optional<Ranked> next = at(pair, (direction + step * side).normalized());
+        if (next && next->cost < best.cost) best = *next, better = true;
+      }
+      if (!better) step *= 0.5;
+    }
+    return best;
+  }
+
+ private:
+  const Problem& problem_;
+  TouchingFit fit_;
+};
+
+/// All ways in which the two can touch, each with the impulse that explains the flights best.
 std::vector<Ranked> touching_starts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights) {
-  constexpr double kBeyond = 0.1;  // restitution outside [0,1]
-  constexpr int kTouchings = 4000;  // for all shakes together
-  const TouchingFit fit(problem, base, flights[0], flights[1]);
+  constexpr int kTouchings = 4000;   // for all shakes together
+  constexpr std::size_t kRefined = 4;  // of each pair of turnings
+  const TouchingStarts starts(problem, base, flights);
   const std::vector<Vec3> directions = possible_offsets(problem, flights);
   const int shakes = kTouchings / (2 * static_cast<int>(directions.size()));
   std::vector<Ranked> all;
-  for (const Pair& pair : turning_pairs(problem, base, shakes))
-    for (const Touching& touching : touchings(problem.solids[0], pair.a.q, problem.solids[1], pair.b.q, directions)) {
-      auto [cost, s] = fit(touching, pair.a.turn(), pair.b.turn());
-      s.q = {pair.a.q, pair.b.q};
-      share_change(pair.a, touching.arm_a.cross(s.impulse), s.h[0], s.h_after[0]);
-      share_change(pair.b, Vec3(-touching.arm_b.cross(s.impulse) / s.mass_ratio), s.h[1], s.h_after[1]);
-      s.law.emplace();
-      s.law->a = touching.normal;
-      const double c = restitution<double>(problem, s, values_of(problem, s)), beyond = std::max({0.0, -c, c - 1.0}) / kBeyond;
-      all.push_back({cost + pair.cost() + 0.5 * beyond * beyond, s});
-    }
+  for (const Pair& pair : turning_pairs(problem, base, shakes)) {
+    std::vector<Ranked> some;
+    for (const Vec3& direction : directions)
+      if (std::optional<Ranked> start = starts.at(pair, direction)) some.push_back(std::move(*start));
+    std::stable_sort(some.begin(), some.end(), [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
+    for (std::size_t i = 0; i < std::min(some.size(), kRefined); ++i) all.push_back(starts.refined(pair, some[i]));
+    all.insert(all.end(), some.begin(), some.end());
+  }
   return all;
 }
 
@@ -236,7 +274,12 @@ std::vector<State> start_states(const Problem& problem, double time, int count) 
   Problem tilted = problem;
   tilted.down = base.down;
   if (!fly_around(tilted, base.time)) return {};
-  return best_of(touching_starts(problem, base, flights), count);
+  std::vector<State> states = best_of(touching_starts(problem, base, flights), count);
+  for (const State& lever : best_of(lever_starts(problem, base), std::max(1, count / 4))) {  // where the way over the shapes leads nowhere
+    const Fit fit = approach(problem, lever);
+    if (fit.usable) states.push_back(fit.state);
+  }
+  return states;
 }
 
 }  // namespace unseen::collision

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "collision/contact.h"
 
@@ -15,7 +15,7 @@ struct Touching {
   Vec3 normal;        ///< unit, from b to a
 };
 
-/// Ways to touch with the centres' offset along each of `directions`: the surface of the two shapes' Minkowski difference, sampled.
-std::vector<Touching> touchings(const Solid& a, const Quat& q_a, const Solid& b, const Quat& q_b, const std::vector<Vec3>& directions);
+/// The way to touch with the centres' offset along `direction`; nothing if none is found.
+std::optional<Touching> touch_along(const Solid& a, const Quat& q_a, const Solid& b, const Quat& q_b, const Vec3& direction);
 
 }  // namespace unseen::collision
