@@ -15,7 +15,6 @@ namespace {
 constexpr double kMostChi2 = 3.0;
 constexpr double kMostEnergy = 1.01;  // of that before: bounds are soft, so a little more than 1 is none
 constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
-constexpr double kLopsided = 0.01;    // of the projected size: blur, shade and shadow shift a region's centroid by so much
 constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
 constexpr double kTrendSize = 2.0;    // in noise: smaller trends do no harm
 

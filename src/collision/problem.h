@@ -14,6 +14,9 @@
 
 namespace unseen::collision {
 
+/// Share of a body's projected size by which blur, shade and shadow shift the centroids of its regions, alike for a whole flight.
+constexpr double kLopsided = 0.01;
+
 /// A body's centre in one frame, as an observation of the solver.
 struct PointObservation {
   int body = 0;
@@ -57,6 +60,7 @@ struct Problem {
   std::vector<PointObservation> points;
   std::vector<OrientationObservation> orientations;
   double pixel_sigma = 1.0;            ///< px
+  bool filmed = false;                 ///< centres are centroids of regions: off by kLopsided
   double orientation_sigma = 0.087;    ///< rad
   bool scattered = true;               ///< each orientation was seen on its own, so that their scatter tells their noise
   bool friction = true;

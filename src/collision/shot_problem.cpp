@@ -60,6 +60,7 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
   problem.friction = options.friction;
   problem.terms = terms_of(options.physics, options.without);
   problem.pixel_sigma = std::max(0.1, tracks.noise);
+  problem.filmed = !shot.video.empty();
   problem.orientation_sigma = radians(options.orientation_noise);
   if (problem.fixed) problem.fixed_normal = shot.bodies[1].normal ? shot.bodies[1].normal : shot.floor ? std::optional(shot.floor->normal) : std::nullopt;
   if (problem.fixed && shot.floor && !shot.bodies[1].normal) problem.fixed_offset = shot.floor->offset;

@@ -31,6 +31,30 @@ Residuals residuals_of(const Problem& problem, const State& state) {
   return all;
 }
 
+/// Shifts each flight's centres alike, and by as much the other way at its other end: regions are lopsided, and turn.
+void shift_flights(Problem& problem, Random& random) {
+  struct Flight {
+    double begin = 1e300, end = -1e300;
+    Vec2 shift, drift;  // of the projected size
+  };
+  std::map<std::pair<int, bool>, Flight> flights;
+  for (const PointObservation& p : problem.points) {
+    Flight& f = flights[{p.body, p.after}];
+    f.begin = std::min(f.begin, p.time);
+    f.end = std::max(f.end, p.time);
+  }
+  for (auto& [key, f] : flights) {
+    f.shift = kLopsided * Vec2(random.normal(), random.normal());
+    f.drift = kLopsided * Vec2(random.normal(), random.normal());
+  }
+  for (PointObservation& p : problem.points) {
+    if (p.depth <= 0.0) continue;
+    const Flight& f = flights[{p.body, p.after}];
+    const double along = f.end > f.begin ? 2.0 * (p.time - f.begin) / (f.end - f.begin) - 1.0 : 0.0;
+    p.pixel += problem.camera.fx * problem.solids[static_cast<std::size_t>(p.body)].mass.extent / p.depth * (f.shift + along * f.drift);
+  }
+}
+
 /// The prediction with residuals drawn anew: runs of them, since neighbouring frames are off alike; few orientations tell little of their
 /// noise, so theirs is normal.
 Problem resampled(const Problem& problem, const Residuals& residuals, double scale, Random& random) {
@@ -47,6 +71,7 @@ Problem resampled(const Problem& problem, const Residuals& residuals, double sca
     const Vec3 turn = problem.orientation_sigma * Vec3(random.normal(), random.normal(), random.normal());
     drawn.orientations[i].q = (rotation_by<double>(turn) * residuals.q_predicted[i]).normalized();
   }
+  if (problem.filmed) shift_flights(drawn, random);
   // the sizes of a flight are off together
   std::map<std::pair<int, bool>, std::pair<double, int>> flights;
   for (const PointObservation& p : problem.points) ++flights[{p.body, p.after}].second;
