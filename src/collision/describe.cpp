@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "collision/frame_clock.h"
+#include "collision/residuals.h"
 #include "collision/restitution.h"
 #include "collision/unknowns.h"
 
@@ -15,6 +16,15 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kSureEnough = 0.12;  // deviation of the restitution above which no value is called confident
+
+/// Whether c ≤ 1 agrees with the data: what the soft bound gives way tells how far beyond it they would lead, in deviations. Nothing real
+/// ends at 0, but solutions that went astray do.
+bool within_bounds(const SolvedImpact& impact) {
+  constexpr double kFar = 2.0;
+  const State& state = impact.solution.fit.state;
+  const double c = restitution<double>(impact.solution.problem, state, values_of(impact.solution.problem, state));
+  return c > 0.0 && std::max(0.0, c - 1.0) * impact.uncertain.restitution.sd < kFar * kBound * kBound;
+}
 
 /// One impact's solution in world coordinates.
 struct Teller {
@@ -145,8 +155,7 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
   double used = 0.0, held_out = 0.0;
   for (const Teller& teller : tellers) {
     result.impacts.push_back(teller.describe(clock));
-    const double c = teller.impact.uncertain.restitution.value;
-    if (teller.impact.check.fits && c > 0.0 && c < 1.0) restitutions.push_back(teller.impact.uncertain.restitution);
+    if (teller.impact.check.fits && within_bounds(teller.impact)) restitutions.push_back(teller.impact.uncertain.restitution);
     used += std::pow(teller.impact.check.used_rms, 2) / static_cast<double>(tellers.size());
     held_out += std::pow(teller.impact.check.held_out_rms, 2) / static_cast<double>(tellers.size());
     add_residuals(teller.impact, result);

@@ -56,6 +56,27 @@ class Flights {
     for (std::size_t o = 0; o < 2; ++o) solids_[o] = solid_of(shot.bodies[o], shot.name);
   }
 
+  /// Takes down as flights without an impact explain all sightings best, if it is not known: a wrong one bends them, which an impact would explain.
+  std::optional<double> settle_down(const std::vector<std::vector<Candidate>>& bodies, std::size_t count, double fps) {
+    constexpr int kRounds = 12;
+    std::optional<double> least = cost(bodies, 0, count, std::nullopt, fps);
+    if (shot_.down || shot_.gravity == 0.0) return least;
+    shot_.down = Vec3::UnitY();
+    double step = 0.1;  // rad
+    for (int round = 0; least && round < kRounds; ++round) {
+      const Vec3 down = *shot_.down, e1 = any_orthogonal(down), e2 = down.cross(e1);
+      Vec3 best = down;
+      for (const Vec3& side : {e1, e2, Vec3(-e1), Vec3(-e2)}) {
+        shot_.down = (down + step * side).normalized();
+        const std::optional<double> next = cost(bodies, 0, count, std::nullopt, fps);
+        if (next && *next < *least) least = next, best = *shot_.down;
+      }
+      if (best == down) step *= 0.5;
+      shot_.down = best;
+    }
+    return least;
+  }
+
   /// ½ χ² (robust) of sightings `[begin, end)` of each body about flights that change at `u`; without `u` nothing changes.
   std::optional<double> cost(const std::vector<std::vector<Candidate>>& bodies, std::size_t begin, std::size_t end, std::optional<double> u, double fps) {
     Tracks tracks;
@@ -103,7 +124,7 @@ class Flights {
     return sum;
   }
 
-  const Shot& shot_;
+  Shot shot_;
   const ShotCamera& camera_;
   std::array<Solid, 2> solids_;
   Tracks tracks_;
@@ -125,8 +146,8 @@ std::optional<Tracks> search_pair(const Shot& shot, const ShotCamera& camera, co
   const std::vector<std::vector<Candidate>> bodies = {sightings_of(candidates, 0), sightings_of(candidates, 1)};
   if (bodies[0].size() < 2 * kFewest || bodies[1].size() < 2 * kFewest) return std::nullopt;
   const std::size_t count = std::max(bodies[0].size(), bodies[1].size());
-  Flights flights(shot, camera, noise_of(bodies, least_noise));
-  const std::optional<double> none = flights.cost(bodies, 0, count, std::nullopt, fps);
+  Flights flights(shot, camera, noise_of(bodies, least_noise)), still = flights;
+  const std::optional<double> none = still.settle_down(bodies, count, fps);
   std::optional<double> least;
   double best = 0.0;
   for (double u = bodies[0].front().u; u < bodies[0].back().u; u += kStep) {

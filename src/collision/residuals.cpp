@@ -13,7 +13,6 @@ namespace {
 constexpr double kPointHuber = 3.0;        // in noise
 constexpr double kOrientationHuber = 2.0;  // in noise
 constexpr double kMidpointSigma = 0.5;     // of the bodies' size: fixes the gauge along the impulse
-constexpr double kBound = 0.01;            // restitution beyond [0,1] and growing energy, as a share
 
 /// What every term knows.
 struct Base {

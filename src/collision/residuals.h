@@ -15,6 +15,8 @@
 
 namespace unseen::collision {
 
+constexpr double kBound = 0.01;  ///< σ of restitution beyond [0,1] and of growing energy, as a share
+
 /// One residual block with the name of the term that it belongs to.
 struct NamedBlock {
   std::string term;
