@@ -3,68 +3,14 @@
 #include "collision/starts.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "collision/linear_flights.h"
-#include "collision/rotation.h"
 #include "collision/solve.h"
-#include "collision/spin_starts.h"
-#include "collision/touching_fit.h"
-#include "collision/unknowns.h"
-#include "collision/views.h"
-#include "unseen/core/random.h"
+#include "collision/touching_starts.h"
+#include "collision/turnings.h"
 
 namespace unseen::collision {
 namespace {
-
-/// A body's turning through the impact: at it, and the lever (across the impulse) that the change of momentum asks for.
-struct Turning {
-  Quat q = Quat::Identity();
-  Vec3 h = Vec3::Zero(), h_after = Vec3::Zero(), lever = Vec3::Zero();
-  bool has_lever = false;
-  double cost = 0;
-  Mat3 spread = Mat3::Zero(), spread_after = Mat3::Zero();  // covariances of h and h_after
-
-  TouchingFit::Turn turn() const {
-    if (!has_lever) return {};
-    return {h_after - h, Mat3((spread + spread_after).inverse())};
-  }
-};
-
-Quat between(const Quat& a, const Quat& b) { return a.slerp(0.5, b).normalized(); }
-
-/// Pairs of guesses before and after, ranked by how well they meet at the impact. `impulse` is the body's own, per its mass.
-std::vector<Turning> turnings(const Problem& problem, int body, double time, const Vec3& impulse) {
-  const std::vector<SpinGuess> before = spin_guesses(problem, body, false, time), after = spin_guesses(problem, body, true, time);
-  std::vector<Turning> all;
-  if (before.empty() && after.empty()) return {Turning{}};
-  if (before.empty() || after.empty()) {
-    for (const SpinGuess& guess : before.empty() ? after : before) {
-      Turning t;
-      t.q = guess.q, t.h = t.h_after = guess.h, t.cost = guess.cost;
-      all.push_back(t);
-    }
-    return all;
-  }
-  constexpr double kMeet = 0.35;  // rad: how far extrapolated orientations may be off at the impact
-  const double reach = problem.solids[body].mass.reach, square = std::max(1e-9, impulse.squaredNorm());
-  for (const SpinGuess& a : before)
-    for (const SpinGuess& b : after) {
-      const Vec3 change = b.h - a.h;
-      const double meet = rotation_vector<double>(b.q * a.q.conjugate()).norm() / kMeet;
-      Turning t{between(a.q, b.q), a.h, b.h, impulse.cross(change) / square, true, a.cost + b.cost + 0.5 * meet * meet, a.spread, b.spread};
-      const double along = change.dot(impulse) / std::sqrt(square) / (reach * std::sqrt(square)), beyond = std::max(0.0, t.lever.norm() / reach - 1.0);
-      t.cost += 0.5 * (along * along + beyond * beyond) * 100.0;
-      all.push_back(t);
-    }
-  std::stable_sort(all.begin(), all.end(), [](const Turning& a, const Turning& b) { return a.cost < b.cost; });
-  return all;
-}
-
-struct Ranked {
-  double cost;
-  State state;
-};
 
 /// Whether two states turn alike and touch in nearly the same way.
 bool alike(const State& a, const State& b) {
@@ -115,127 +61,6 @@ std::vector<Ranked> lever_starts(const Problem& problem, const State& base) {
       s.h_after = {a.h_after, b.h_after};
       all.push_back({a.cost + b.cost + 0.5 * apart * apart / (kApart * kApart), s});
     }
-  return all;
-}
-
-/// Momenta on both sides that agree with the impulse's lever.
-void share_change(const Turning& turning, const Vec3& change, Vec3& h, Vec3& h_after) {
-  h = turning.h, h_after = turning.h + change;
-  if (!turning.has_lever) return;
-  h -= turning.spread * (turning.spread + turning.spread_after).inverse() * (change - (turning.h_after - turning.h));
-  h_after = h + change;
-}
-
-/// The orientations as they might have been seen.
-Problem shaken(Problem problem, Random& random) {
-  for (OrientationObservation& o : problem.orientations)
-    o.q = (rotation_by<double>(Vec3(problem.orientation_sigma * Vec3(random.normal(), random.normal(), random.normal()))) * o.q).normalized();
-  return problem;
-}
-
-struct Pair {
-  Turning a, b;
-  double cost() const { return a.cost + b.cost; }
-};
-
-/// How both bodies may have turned, the best first; noisy orientations are tried shaken as well, since a small turn may decide where the shapes touch.
-std::vector<Pair> turning_pairs(const Problem& problem, const State& base, int shakes) {
-  constexpr std::size_t kTurnings = 6, kPairs = 16, kShakenTurnings = 2;
-  constexpr double kHopeless = 60.0;      // ½ χ²
-  constexpr double kWorthShaking = 0.03;  // rad
-  std::vector<Pair> pairs;
-  const auto add = [&](const Problem& seen, std::size_t most_each, std::size_t most) {
-    const std::vector<Turning> first = turnings(seen, 0, base.time, base.impulse), second = turnings(seen, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
-    std::vector<Pair> some;
-    for (std::size_t i = 0; i < std::min(first.size(), most_each); ++i)
-      for (std::size_t j = 0; j < std::min(second.size(), most_each); ++j) some.push_back({first[i], second[j]});
-    std::stable_sort(some.begin(), some.end(), [](const Pair& a, const Pair& b) { return a.cost() < b.cost(); });
-    if (some.size() > most) some.resize(most);
-    std::erase_if(some, [limit = some.front().cost() + kHopeless](const Pair& p) { return p.cost() > limit; });
-    pairs.insert(pairs.end(), some.begin(), some.end());
-  };
-  add(problem, kTurnings, kPairs);
-  if (problem.orientations.empty() || !problem.scattered || problem.orientation_sigma < kWorthShaking) return pairs;
-  Random random(1);
-  for (int i = 0; i < shakes; ++i) add(shaken(problem, random), kShakenTurnings, kShakenTurnings);
-  return pairs;
-}
-
-/// Directions from the second body's centre to the first's that the flights allow.
-std::vector<Vec3> possible_offsets(const Problem& problem, const std::array<LinearFlight, 2>& flights) {
-  constexpr int kDirections = 256;
-  constexpr double kSlack = 0.1, kFar = 4.0;  // of the bodies' size: what flights hide; standard deviations
-  const double size = problem.solids[0].mass.extent + problem.solids[1].mass.extent;
-  Mat3 spread = std::pow(kSlack * size, 2) * Mat3::Identity();
-  for (const LinearFlight& f : flights) spread += f.normal.topLeftCorner<9, 9>().inverse().topLeftCorner<3, 3>();
-  const Mat3 precision = spread.inverse();
-  const Vec3 expected = flights[0].p - flights[1].p;
-  std::vector<Vec3> possible;
-  for (const Vec3& u : sphere_directions(kDirections)) {
-    const double along = std::clamp(u.dot(precision * expected) / u.dot(precision * u), 0.0, size);
-    const Vec3 off = along * u - expected;
-    if (off.dot(precision * off) < kFar * kFar) possible.push_back(u);
-  }
-  return possible.empty() ? sphere_directions(kDirections) : possible;
-}
-
-/// Both shapes known: how well an impact with the centres' offset along a direction explains the flights.
-class TouchingStarts {
- public:
-  TouchingStarts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights)
-      : problem_(problem), fit_(problem, base, flights[0], flights[1]) {}
-
-  std::optional<Ranked> at(const Pair& pair, const Vec3& direction) const {
-    constexpr double kBeyond = 0.1;  // restitution outside [0,1]
-    const std::optional<Touching> touching = touch_along(problem_.solids[0], pair.a.q, problem_.solids[1], pair.b.q, direction);
-    if (!touching) return std::nullopt;
-    auto [cost, s] = fit_(*touching, pair.a.turn(), pair.b.turn());
-    s.q = {pair.a.q, pair.b.q};
-    share_change(pair.a, touching->arm_a.cross(s.impulse), s.h[0], s.h_after[0]);
-    share_change(pair.b, Vec3(-touching->arm_b.cross(s.impulse) / s.mass_ratio), s.h[1], s.h_after[1]);
-    s.law.emplace();
-    s.law->a = touching->normal;
-    const double c = restitution<double>(problem_, s, values_of(problem_, s)), beyond = std::max({0.0, -c, c - 1.0}) / kBeyond;
-    return Ranked{cost + pair.cost() + 0.5 * beyond * beyond, s};
-  }
-
-  /// From there to the best direction nearby.
-  Ranked refined(const Pair& pair, Ranked best) const {
-    constexpr int kRounds = 16;
-    double step = 0.08;  // rad
-    for (int round = 0; round < kRounds; ++round) {
-      const Vec3 direction = (best.state.p[0] - best.state.p[1]).normalized(), e1 = any_orthogonal(direction), e2 = direction.cross(e1);
-      bool better = false;
-      for (const Vec3& side : {e1, e2, Vec3(-e1), Vec3(-e2)}) {
-        const std::optional<Ranked> next = at(pair, (direction + step * side).normalized());
-        if (next && next->cost < best.cost) best = *next, better = true;
-      }
-      if (!better) step *= 0.5;
-    }
-    return best;
-  }
-
- private:
-  const Problem& problem_;
-  TouchingFit fit_;
-};
-
-/// All ways in which the two can touch, each with the impulse that explains the flights best.
-std::vector<Ranked> touching_starts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights) {
-  constexpr int kTouchings = 4000;   // for all shakes together
-  constexpr std::size_t kRefined = 4;  // of each pair of turnings
-  const TouchingStarts starts(problem, base, flights);
-  const std::vector<Vec3> directions = possible_offsets(problem, flights);
-  const int shakes = kTouchings / (2 * static_cast<int>(directions.size()));
-  std::vector<Ranked> all;
-  for (const Pair& pair : turning_pairs(problem, base, shakes)) {
-    std::vector<Ranked> some;
-    for (const Vec3& direction : directions)
-      if (std::optional<Ranked> start = starts.at(pair, direction)) some.push_back(std::move(*start));
-    std::stable_sort(some.begin(), some.end(), [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
-    for (std::size_t i = 0; i < std::min(some.size(), kRefined); ++i) all.push_back(starts.refined(pair, some[i]));
-    all.insert(all.end(), some.begin(), some.end());
-  }
   return all;
 }
 

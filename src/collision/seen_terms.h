@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "collision/rotation.h"
+#include "collision/unknowns.h"
+
+// What was seen, as residuals over their noise; parts of residuals.cpp.
+namespace unseen::collision {
+
+/// What every term knows.
+struct Base {
+  const Problem& problem;
+  const State& reference;
+};
+
+/// Many terms of one kind: functions of few parts of the state, through which their derivatives go.
+constexpr int kFlightParts = 10;
+
+/// A centre's place, from place and velocity at the impact, down, and the impact's time.
+template <class T>
+Vec3T<T> flown(const Problem& problem, const PointObservation& seen, const std::array<T, kFlightParts>& in) {
+  const PointState<T> start{Vec3T<T>(in[0], in[1], in[2]), Vec3T<T>(in[3], in[4], in[5])};
+  Vec3T<T> p = fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[seen.body]), T(seen.time) - in[9]).p;
+  constexpr double kNearest = 0.01;  // m: what a step takes behind the camera is far off, and nothing worse
+  if (value_of(p.z()) < kNearest) p.z() = T(kNearest);
+  return p;
+}
+
+template <class T>
+std::array<const T*, kFlightParts> flight_parts(const StateT<T>& s, int body, bool after) {
+  const Vec3T<T>&p = s.p[body], &v = after ? s.v_after[body] : s.v[body];
+  return {&p.x(), &p.y(), &p.z(), &v.x(), &v.y(), &v.z(), &s.down.x(), &s.down.y(), &s.down.z(), &s.time};
+}
+
+/// Reprojection of a centre, Eq. 5.22; px over noise.
+struct PointTerm : Base {
+  static constexpr int kParts = kFlightParts, kResiduals = 2;
+  const PointObservation& seen;
+  template <class T>
+  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  template <class T>
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
+    const Vec3T<T> p = flown<T>(problem, seen, in);
+    r[0] = (p.x() / p.z() * problem.camera.fx + problem.camera.cx - seen.pixel.x()) / problem.pixel_sigma;
+    r[1] = (p.y() / p.z() * problem.camera.fy + problem.camera.cy - seen.pixel.y()) / problem.pixel_sigma;
+  }
+};
+
+/// Depth from the projected size, Eq. 5.23.
+struct DepthTerm : Base {
+  static constexpr int kParts = kFlightParts, kResiduals = 1;
+  const PointObservation& seen;
+  template <class T>
+  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  template <class T>
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
+    using std::log;
+    const Vec3T<T> p = flown<T>(problem, seen, in);
+    r[0] = log(p.z() / seen.depth) / seen.depth_sigma;
+  }
+};
+
+/// Geodesic distance to an orientation seen, for Eq. 5.25.
+struct OrientationTerm : Base {
+  static constexpr int kParts = 7, kResiduals = 3;
+  const OrientationObservation& seen;
+  template <class T>
+  std::array<const T*, kParts> parts(const StateT<T>& s) const {
+    const Vec3T<T>&turn = s.turn[seen.body], &h = seen.after ? s.h_after[seen.body] : s.h[seen.body];
+    return {&turn.x(), &turn.y(), &turn.z(), &h.x(), &h.y(), &h.z(), &s.time};
+  }
+  template <class T>
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>& s) const {
+    const Vec3& inertia = problem.solids[seen.body].mass.inertia;
+    const Vec3 h(value_of(in[3]), value_of(in[4]), value_of(in[5]));
+    QuatT<T> q;
+    if constexpr (std::is_same_v<T, double>) {
+      q = turned<double>(s.q[seen.body], h, inertia, seen.time - in[6]);
+    } else {
+      // Turning the start and the momentum alike turns the end alike: derivatives along the momentum are enough.
+      const auto [end, along_h] = turned_with_derivative(s.q[seen.body], h, inertia, seen.time - in[6].a);
+      const Vec3T<T> turn(in[0], in[1], in[2]), step = Vec3T<T>(in[3], in[4], in[5]) - h.cast<T>() - turn.cross(h.cast<T>());
+      const Vec3T<T> theta = turn + along_h.template cast<T>() * step - angular_velocity<double>(end, h, inertia).template cast<T>() * (in[6] - in[6].a);
+      q = rotation_by<T>(theta) * end.template cast<T>();
+    }
+    const Vec3T<T> off = rotation_vector<T>(q * seen.q.conjugate().cast<T>());
+    for (int i = 0; i < 3; ++i) r[i] = off[i] / problem.orientation_sigma;
+  }
+};
+
+}  // namespace unseen::collision
