@@ -15,6 +15,7 @@ namespace {
 constexpr double kMostChi2 = 3.0;
 constexpr double kMostEnergy = 1.01;  // of that before: bounds are soft, so a little more than 1 is none
 constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
+constexpr double kMostStrain = 3.0;   // noise that contact and orientations may be off by in the mean
 constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
 constexpr double kTrendSize = 2.0;    // in noise: smaller trends do no harm
 
@@ -90,6 +91,12 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
   for (std::string& trend : trends(problem, off, noise)) check.reasons.push_back(std::move(trend));
   const StateT<double> s = values_of(problem, solution.fit.state);
   const double kept = kinetic_energy<double>(problem, s, true) / kinetic_energy<double>(problem, s, false);
+  const auto strain = [&](const char* term) {
+    const auto it = solution.fit.terms.find(term);
+    return it == solution.fit.terms.end() ? 0.0 : it->second;
+  };
+  if (strain("touch") > kMostStrain) check.reasons.push_back("the bodies do not touch where their flights meet");
+  if (strain("orientation") > kMostStrain) check.reasons.push_back("the orientations do not belong to one rotation before the impact and one after it");
   if (kept > kMostEnergy) check.reasons.push_back(fmt::format("the impact would add energy ({:.1f} % kept)", 100.0 * kept));
   check.fits = check.reasons.empty();
   return check;

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "collision/best_fit.h"
+#include "collision/model_check.h"
 #include "collision/restitution.h"
 #include "collision/rotation.h"
 #include "collision/uncertainty.h"
 #include "collision/unknowns.h"
 #include "unseen/collision/synth.h"
+#include "unseen/core/random.h"
 
 namespace unseen::collision {
 namespace {
@@ -55,6 +57,20 @@ TEST(Solve, RecoversRestitutionAndMassRatioOfExactTracks) {
     EXPECT_NEAR(restitution_of(s), *synth.truth.restitution, 0.005) << "seed " << seed;
     EXPECT_NEAR(s.fit.state.mass_ratio / *synth.truth.mass_ratio, 1.0, 0.005) << "seed " << seed;
   }
+}
+
+/// Orientations of the wrong body leave no way for the two to touch.
+TEST(Check, RefusesOrientationsThatDoNotBelong) {
+  const SynthShot synth = shot_of("boxes", 1);
+  Problem problem = problem_of(synth);
+  const Solution right = solved(synth, problem);
+  EXPECT_TRUE(check_model(right, 5, 0.3).fits);
+  Random random(2);
+  for (OrientationObservation& o : problem.orientations) o.q = rotation_by<double>(Vec3(random.normal(), random.normal(), random.normal())) * o.q;
+  problem.scattered = false;  // said to be right within 5°
+  const Solution wrong = solved(synth, problem);
+  ASSERT_TRUE(wrong.fit.usable);
+  EXPECT_FALSE(check_model(wrong, 5, 0.3).fits);
 }
 
 TEST(Solve, IsNotBiasedByFriction) {
