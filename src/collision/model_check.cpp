@@ -13,7 +13,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kMostChi2 = 3.0;
-constexpr double kMostEnergy = 1.01;  // of that before: bounds are soft, so a little more than 1 is none
+constexpr double kMostEnergy = 1.005;  // of that before: bounds are soft, so a little more than 1 is none
 constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
 constexpr double kMostStrain = 3.0;   // noise that contact and orientations may be off by in the mean
 constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
