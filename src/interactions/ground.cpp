@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "interactions/ground.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "interactions/sight.h"
+
+namespace unseen::interactions {
+namespace {
+
+constexpr double kAnkleHeight = 0.09;      // m
+constexpr double kTorso = 0.44, kLeg = 0.77;  // m, shoulders to hips and hip to ankle of an adult of 1.7 m
+constexpr double kUsualHeight = 1.2, kHeightSd = 0.5;        // m, of cameras that film people
+constexpr double kUsualPitch = 0.05, kPitchSd = 0.06;        // rad
+constexpr double kFloorSd = 0.05;                            // m, of an ankle about the floor
+
+/// The lower ankle of someone upright: its depth along the camera's axis and how far below the axis it is, m.
+struct Foot {
+  double depth, below;
+};
+
+/// The lower leg in the picture if it stands upright: its length and the row of its ankle, px.
+std::optional<Vec2> upright_leg(const Detection& d, Joint hip, Joint knee, Joint ankle, double torso) {
+  constexpr double kThigh = 0.7, kShin = 0.55;  // of the torso; a thigh that is seen shorter is bent
+  for (const Joint joint : {hip, knee, ankle})
+    if (d.confidence[joint] < kSeen) return std::nullopt;
+  if (d.pixels(1, knee) - d.pixels(1, hip) < kThigh * torso || d.pixels(1, ankle) - d.pixels(1, knee) < kShin * torso) return std::nullopt;
+  const double length = (d.pixels.col(hip) - d.pixels.col(knee)).norm() + (d.pixels.col(knee) - d.pixels.col(ankle)).norm();
+  return Vec2(length, d.pixels(1, ankle));
+}
+
+std::optional<Foot> lower_foot(const Detection& d, const Camera& camera) {
+  for (const Joint joint : {right_shoulder, left_shoulder, right_hip, left_hip})
+    if (d.confidence[joint] < kSeen) return std::nullopt;
+  const double torso = 0.5 * (d.pixels.col(right_shoulder) + d.pixels.col(left_shoulder) - d.pixels.col(right_hip) - d.pixels.col(left_hip)).norm();
+  std::optional<Vec2> leg = upright_leg(d, right_hip, right_knee, right_ankle, torso);
+  if (const auto other = upright_leg(d, left_hip, left_knee, left_ankle, torso); other && (!leg || other->y() > leg->y())) leg = other;
+  if (!leg) return std::nullopt;
+  const double depth = camera.fy * (kTorso + kLeg) / (torso + leg->x());
+  return Foot{depth, (leg->y() - camera.cy) / camera.fy * depth};
+}
+
+/// Least squares with Cauchy weights of below = height − slope · depth. A prior on the slope counts as a third of the feet: their depths are
+/// wrong together when the person is not of usual size.
+Vec2 fit_floor(const std::vector<Foot>& feet) {
+  const double slope_weight = std::max(1.0, static_cast<double>(feet.size()) / 9.0) / (kPitchSd * kPitchSd);
+  Vec2 fit(kUsualHeight, kUsualPitch);
+  std::vector<double> weights(feet.size(), 1.0);
+  for (int round = 0; round < 30; ++round) {
+    Eigen::Matrix2d normal = Eigen::Vector2d(1.0 / (kHeightSd * kHeightSd), slope_weight).asDiagonal();
+    Vec2 right(kUsualHeight / (kHeightSd * kHeightSd), slope_weight * kUsualPitch);
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      const Vec2 row(1.0, -feet[i].depth);
+      const double weight = weights[i] / (kFloorSd * kFloorSd);
+      normal += weight * row * row.transpose();
+      right += weight * feet[i].below * row;
+    }
+    fit = normal.ldlt().solve(right);
+    for (std::size_t i = 0; i < feet.size(); ++i) {
+      const double off = (feet[i].below - fit.x() + fit.y() * feet[i].depth) / kFloorSd;
+      weights[i] = 1.0 / (1.0 + off * off);
+    }
+  }
+  return fit;
+}
+
+}  // namespace
+
+Ground find_ground(const Take& take, Context& context) {
+  std::vector<Foot> feet;
+  for (const Detection& detection : take.detections)
+    if (const auto foot = lower_foot(detection, take.camera)) feet.push_back(*foot);
+  Ground ground;
+  Vec2 floor = fit_floor(feet);
+  ground.source = feet.empty() ? "assumed" : "feet";
+  ground.pitch = std::atan(floor.y());
+  ground.camera_height = floor.x() * std::cos(ground.pitch) + kAnkleHeight;
+  if (take.up) {
+    ground.pitch = std::asin(std::clamp(-take.up->z(), -1.0, 1.0));
+    ground.roll = std::atan2(-take.up->x(), -take.up->y());
+  }
+  if (take.camera_height) {
+    ground.camera_height = *take.camera_height;
+    ground.source = "given";
+  }
+  if (feet.empty() && !take.camera_height)
+    context.warn(fmt::format("nobody is seen upright with feet on the floor: the camera is taken to be {:.1f} m high", ground.camera_height));
+  return ground;
+}
+
+}  // namespace unseen::interactions

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "unseen/core/context.h"
+#include "unseen/interactions/types.h"
+
+namespace unseen::interactions {
+
+/// Height and tilt of the camera above the floor that people stand on: of upright people whose ankles are seen, the length of the body in the
+/// picture tells the depth, and the lower ankle then lies at ankle height. What the take gives is kept. Warns where nothing can be told.
+Ground find_ground(const Take& take, Context& context);
+
+}  // namespace unseen::interactions

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "interactions/sight.h"
+
+namespace unseen::interactions {
+
+View view_of(const Camera& camera, const Ground& ground) {
+  // Of a level camera: x stays, its z looks along +y, its y down.
+  Mat3 level;
+  level << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const Mat3 tilt = (Eigen::AngleAxisd(-ground.pitch, Vec3::UnitX()) * Eigen::AngleAxisd(ground.roll, Vec3::UnitY())).toRotationMatrix();
+  return {camera, {tilt * level, Vec3(0, 0, ground.camera_height)}};
+}
+
+std::vector<Sight> sights_of(const Take& take, const std::vector<int>& persons, int person, const View& view) {
+  std::vector<Sight> sights;
+  for (std::size_t i = 0; i < take.detections.size(); ++i) {
+    if (persons[i] != person) continue;
+    const Detection& detection = take.detections[i];
+    Sight sight;
+    sight.frame = detection.frame;
+    sight.pixels = detection.pixels;
+    sight.confidence = detection.confidence;
+    for (int k = 0; k < kJoints; ++k) {
+      const bool seen = detection.confidence[k] >= kSeen;
+      sight.rays[k] = seen ? view.ray(detection.pixels.col(k)) : Vec3::UnitY();
+      sight.information[k] = seen ? Mat3(detection.confidence[k] * (Mat3::Identity() - sight.rays[k] * sight.rays[k].transpose())) : Mat3(Mat3::Zero());
+    }
+    if (detection.local) sight.local = view.T_world_camera.rotation * *detection.local;
+    sights.push_back(std::move(sight));
+  }
+  return sights;
+}
+
+}  // namespace unseen::interactions
