@@ -20,6 +20,7 @@ struct Scenelet {
   double fps = 10;
   std::vector<Pose> poses;  ///< evenly spaced at fps; the middle one is at `middle`
   int middle = 0;
+  Placement origin;  ///< of its frame in the recording's world; says how densely that place is covered
   std::vector<bool> valid;  ///< poses that were recorded; others are interpolated
   std::vector<Action> actions;
   std::vector<Object> objects;
@@ -52,7 +53,8 @@ Database build_database(const std::vector<Recording>& recordings, const Scenelet
 /// One database of several; saliency is computed anew over all.
 Database join(const std::vector<Database>& databases, const SceneletOptions& options);
 
-/// The 14 distances of joints to lines of a pose, m (thesis Section 6.2.2.1).
+/// The 14 distances of joints to lines of a pose, m (thesis Section 6.2.2.1): knees to hip–ankle, elbows to shoulder–wrist, hips to
+/// shoulder–knee (each right, left), then knees, ankles, wrists (right, left) and head to pelvis–thorax, and pelvis to ankle–ankle.
 Eigen::Matrix<double, kJointLines, 1> joint_line_distances(const Pose& pose);
 
 /// Ψ of a motion: poses evenly spaced along its curve in the 17-D space of distances and pelvis position, so independent of speed and frame.
@@ -61,7 +63,10 @@ Eigen::Matrix<float, kJointLines, kDescriptorPoses> motion_descriptor(const std:
 /// Weighted distance of two motion descriptors; the middle weighs most. m
 double motion_distance(const Eigen::Matrix<float, kJointLines, kDescriptorPoses>& a, const Eigen::Matrix<float, kJointLines, kDescriptorPoses>& b);
 
-/// Φ: for each category a grid of 5 × 5 bins around the origin, each with the share that the object covering it most covers.
+inline constexpr double kBin = 0.52;  ///< m; the grid's half side of 1.3 m is the default reach and half the default arc length
+
+/// Φ: for each category a grid of 5 × 5 bins around the origin, rows along y, columns along x; each with the largest
+/// (area of an object's footprint in the bin) / min(area of the bin, area of the footprint).
 std::vector<float> layout_descriptor(const std::vector<Object>& objects);
 
 }  // namespace unseen::interactions

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "interactions/saliency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "interactions/motion_descriptor.h"
+
+namespace unseen::interactions {
+namespace {
+
+constexpr double kBandwidth = 0.2;         ///< m
+constexpr std::size_t kBlock = 256;        ///< scenelets compared with all others at a time
+
+using Table = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// A column a scenelet: its motion, scaled so that plain distances of columns are motion distances. Centred, which spares digits.
+Table motions(const std::vector<Scenelet>& scenelets) {
+  const Eigen::Matrix<float, kDescriptorPoses, 1> scale = pose_weights().cwiseSqrt();
+  Table columns(kJointLines * kDescriptorPoses, scenelets.size());
+  for (std::size_t i = 0; i < scenelets.size(); ++i) {
+    const Eigen::Matrix<float, kJointLines, kDescriptorPoses> scaled = scenelets[i].motion * scale.asDiagonal();
+    columns.col(static_cast<Eigen::Index>(i)) = scaled.reshaped();
+  }
+  columns.colwise() -= columns.rowwise().mean().eval();
+  return columns;
+}
+
+/// A row a scenelet, a column a bin that any scenelet uses; `used` says which.
+Table layouts(const std::vector<Scenelet>& scenelets, std::vector<std::size_t>& used) {
+  for (std::size_t bin = 0; bin < scenelets.front().layout.size(); ++bin)
+    if (std::any_of(scenelets.begin(), scenelets.end(), [&](const Scenelet& s) { return s.layout[bin] > 0; })) used.push_back(bin);
+  Table rows(scenelets.size(), used.size());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) rows(i, j) = scenelets[static_cast<std::size_t>(i)].layout[used[static_cast<std::size_t>(j)]];
+  return rows;
+}
+
+}  // namespace
+
+std::vector<double> densities(const std::vector<Scenelet>& scenelets) {
+  std::map<int, std::vector<std::size_t>> by_recording;
+  for (std::size_t i = 0; i < scenelets.size(); ++i) by_recording[scenelets[i].recording].push_back(i);
+  std::vector<double> density(scenelets.size(), 0.0);
+  for (const auto& [recording, members] : by_recording)
+    for (const std::size_t i : members)
+      for (const std::size_t j : members) {
+        const Vec3 apart = scenelets[i].origin.position - scenelets[j].origin.position;
+        density[i] += std::exp(-apart.squaredNorm() / (2 * kBandwidth * kBandwidth)) / (2 * kPi * kBandwidth * kBandwidth);
+      }
+  return density;
+}
+
+std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigma) {
+  if (scenelets.empty()) return scenelets;
+  const Table motion = motions(scenelets);
+  std::vector<std::size_t> used;
+  const Table layout = layouts(scenelets, used);
+  const Eigen::RowVectorXf length2 = motion.colwise().squaredNorm();
+  const std::vector<double> density = densities(scenelets);
+  const Eigen::VectorXf rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse().cast<float>();
+  const auto count = static_cast<Eigen::Index>(scenelets.size());
+  for (Eigen::Index begin = 0; begin < count; begin += kBlock) {
+    const Eigen::Index rows = std::min<Eigen::Index>(kBlock, count - begin);
+    Table weight = -2.0f * motion.middleCols(begin, rows).transpose() * motion;  // becomes squared distances, then G / ρ
+    weight.rowwise() += length2;
+    weight.colwise() += length2.segment(begin, rows).transpose().eval();
+    weight = (weight.array().max(0.0f) * static_cast<float>(-0.5 / (sigma * sigma))).exp().matrix() * rarity.asDiagonal();
+    const Eigen::VectorXf sum = weight.rowwise().sum();
+    const Table h = sum.cwiseInverse().asDiagonal() * (weight * layout);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      Scenelet& scenelet = scenelets[static_cast<std::size_t>(begin + i)];
+      scenelet.saliency.assign(scenelet.layout.size(), 0.0f);
+      for (std::size_t j = 0; j < used.size(); ++j) scenelet.saliency[used[j]] = h(i, static_cast<Eigen::Index>(j));
+      scenelet.highest_saliency = static_cast<double>(*std::max_element(scenelet.saliency.begin(), scenelet.saliency.end()));
+    }
+  }
+  return scenelets;
+}
+
+}  // namespace unseen::interactions
