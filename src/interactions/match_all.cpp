@@ -10,6 +10,7 @@ namespace unseen::interactions {
 namespace {
 
 constexpr std::size_t kBlock = 64;      // scenelets at a time: their sums stay in the first cache
+constexpr double kNearest = 0.3;        // m
 constexpr double kLeastCover = 0.5;     // of the glance's weight that a scenelet must have poses for
 
 /// The joints of all scenelets at one offset, a coordinate after the other; zero where a scenelet has no pose there.
@@ -119,7 +120,10 @@ std::vector<Match> match_glance(const Glance& glance, const std::vector<const Sa
     for (std::size_t i = 0; i < count; ++i) {
       PlacementFit fit;
       if (!(sums.weight[i] > 0) || sums.weight[i] < least || !fit_placement(cost_at(sums, i), fit)) continue;
-      matches.push_back({static_cast<int>(first + i), {{fit.position.x(), fit.position.y(), 0}, fit.angle}, fit.cost / sums.weight[i]});
+      const double far = fit.position.squaredNorm();  // the cost is in metres where the scenelet is: nearer is no better
+      if (!(far > kNearest * kNearest)) continue;
+      const double error = fit.cost / sums.weight[i] * glance.depth * glance.depth / far;
+      matches.push_back({static_cast<int>(first + i), {{fit.position.x(), fit.position.y(), 0}, fit.angle}, error});
     }
   }
   const std::size_t kept = std::min(keep, matches.size());

@@ -6,6 +6,71 @@
 #include <cmath>
 
 namespace unseen::interactions {
+namespace {
+
+double median_depth(const std::vector<const Sight*>& sights) {
+  constexpr double kUsual = 4;  // m
+  std::vector<double> depths;
+  for (const Sight* sight : sights)
+    if (sight->depth > 0) depths.push_back(sight->depth);
+  if (depths.empty()) return kUsual;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  return *middle;
+}
+
+constexpr double kSigma = 0.12;  // m at the glance's depth: beyond it a joint counts less and less
+
+/// Normal equations of the robust distances by (θ, x, y), their robust cost and the sum of their weights.
+struct Normal {
+  Mat3 hessian = Mat3::Zero();
+  Vec3 gradient = Vec3::Zero();
+  double cost = 0, weight = 0;
+};
+
+void add_joint(Normal& normal, const Vec3& placed, const Placement& placement, const Vec2& seen, double confidence, double depth, const View& view) {
+  const Mat3 turn = view.T_world_camera.rotation.transpose();
+  const Vec3 q = turn * (placed - view.center());
+  constexpr double kNearest = 0.2;  // m
+  if (q.z() < kNearest) {
+    normal.cost += confidence * kSigma * kSigma * std::log1p(100.0);
+    normal.weight += confidence;
+    return;
+  }
+  const Vec2 residual = depth * (q.head<2>() / q.z() - seen);
+  Eigen::Matrix<double, 2, 3> project;
+  project << 1, 0, -q.x() / q.z(), 0, 1, -q.y() / q.z();
+  project *= depth / q.z();
+  Mat3 move = Mat3::Zero();  // of the placed point by (θ, x, y)
+  move.col(0) = Vec3(-(placed.y() - placement.position.y()), placed.x() - placement.position.x(), 0);
+  move.col(1) = Vec3::UnitX();
+  move.col(2) = Vec3::UnitY();
+  const Eigen::Matrix<double, 2, 3> jacobian = project * turn * move;
+  const double off = residual.squaredNorm() / (kSigma * kSigma), weight = confidence / (1 + off);
+  normal.hessian += weight * jacobian.transpose() * jacobian;
+  normal.gradient += weight * jacobian.transpose() * residual;
+  normal.cost += confidence * kSigma * kSigma * std::log1p(off);
+  normal.weight += confidence;
+}
+
+Normal normal_of(const Glance& glance, const Scenelet& scenelet, const Placement& placement, const View& view) {
+  Normal normal;
+  for (std::size_t i = 0; i < glance.sights.size(); ++i) {
+    const auto pose = pose_at(scenelet, glance.offsets[i]);
+    if (!pose) continue;
+    const Sight& sight = *glance.sights[i];
+    const Pose placed = placement * *pose;
+    for (int k = 0; k < kJoints; ++k) {
+      if (sight.confidence[k] < kSeen) continue;
+      const Camera& c = view.camera;
+      const Vec2 seen((sight.pixels(0, k) - c.cx) / c.fx, (sight.pixels(1, k) - c.cy) / c.fy);
+      add_joint(normal, placed.col(k), placement, seen, sight.confidence[k], glance.depth, view);
+    }
+  }
+  return normal;
+}
+
+}  // namespace
 
 Glance glance_at(const std::vector<Sight>& sights, int frame, double fps, double half, double step) {
   Glance glance;
@@ -17,6 +82,7 @@ Glance glance_at(const std::vector<Sight>& sights, int frame, double fps, double
     glance.sights.push_back(&*sight);
     glance.offsets.push_back((sight->frame - frame) / fps);
   }
+  glance.depth = median_depth(glance.sights);
   return glance;
 }
 
@@ -46,33 +112,26 @@ PlacementCost cost_of(const Glance& glance, const Scenelet& scenelet, const Vec3
   return cost;
 }
 
-void refine(Match& match, const Glance& glance, const Scenelet& scenelet, const Vec3& camera) {
-  constexpr double kSigma = 0.12;  // m: beyond it a joint counts less and less
-  constexpr int kRounds = 4;
-  for (int round = 0; round <= kRounds; ++round) {
-    PlacementCost cost;
-    double weights = 0, errors = 0;
-    for (std::size_t i = 0; i < glance.sights.size(); ++i) {
-      const auto pose = pose_at(scenelet, glance.offsets[i]);
-      if (!pose) continue;
-      const Sight& sight = *glance.sights[i];
-      const Pose placed = match.placement * *pose;
-      for (int k = 0; k < kJoints; ++k) {
-        const double confidence = sight.confidence[k];
-        if (confidence < kSeen) continue;
-        const Vec3 from = placed.col(k) - camera;
-        const double off = from.dot(sight.information[k] * from) / confidence / (kSigma * kSigma);
-        cost.add(pose->col(k), camera, sight.information[k] / (1.0 + off));
-        weights += confidence;
-        errors += confidence * kSigma * kSigma * std::log1p(off);
-      }
+void refine(Match& match, const Glance& glance, const Scenelet& scenelet, const View& view) {
+  constexpr int kRounds = 6;
+  double damping = 1e-3;
+  Normal at = normal_of(glance, scenelet, match.placement, view);
+  for (int round = 0; round < kRounds; ++round) {
+    const Mat3 damped = at.hessian + damping * Mat3(at.hessian.diagonal().asDiagonal()) + 1e-9 * Mat3::Identity();
+    const Vec3 step = -damped.ldlt().solve(at.gradient);
+    Placement moved = match.placement;
+    moved.angle += step[0];
+    moved.position += Vec3(step[1], step[2], 0);
+    const Normal next = normal_of(glance, scenelet, moved, view);
+    if (next.cost < at.cost) {
+      match.placement = moved;
+      at = next;
+      damping *= 0.1;
+    } else {
+      damping *= 10;
     }
-    if (!(weights > 0)) return;
-    match.error = errors / weights;
-    PlacementFit fit;
-    if (round == kRounds || !fit_placement(cost, fit)) return;
-    match.placement = {{fit.position.x(), fit.position.y(), 0}, fit.angle};
   }
+  match.error = at.weight > 0 ? at.cost / at.weight : 0;
 }
 
 }  // namespace unseen::interactions

@@ -15,7 +15,7 @@ namespace unseen::interactions {
 struct Match {
   int scenelet = -1;
   Placement placement;
-  double error = 0;  ///< m², mean squared distance of its joints to the rays, weighted by confidence; robust once refined
+  double error = 0;  ///< m² at the glance's depth: mean squared distance in the picture, weighted by confidence; robust once refined
 };
 
 /// Frames of one person around `center` that scenelets are laid over.
@@ -23,6 +23,7 @@ struct Glance {
   int center = 0;  ///< frame
   std::vector<const Sight*> sights;
   std::vector<double> offsets;  ///< s after the centre, one a sight
+  double depth = 1;             ///< m, rough
 };
 
 /// The sights within `half` seconds of a frame, thinned to one in `step` seconds.
@@ -38,7 +39,7 @@ PlacementCost cost_of(const Glance& glance, const Scenelet& scenelet, const Vec3
 std::vector<std::vector<Match>> match_all(const std::vector<Glance>& glances, const Database& database, const Vec3& camera, std::size_t keep,
                                           const Context& context);
 
-/// Damped Gauss–Newton with robust weights from the match's placement; updates placement and error.
-void refine(Match& match, const Glance& glance, const Scenelet& scenelet, const Vec3& camera);
+/// Damped Gauss–Newton on the robust distances in the picture, from the match's placement; updates placement and error.
+void refine(Match& match, const Glance& glance, const Scenelet& scenelet, const View& view);
 
 }  // namespace unseen::interactions

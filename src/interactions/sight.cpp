@@ -3,6 +3,18 @@
 #include "interactions/sight.h"
 
 namespace unseen::interactions {
+namespace {
+
+/// An upright torso of usual length tells the depth; foreshortened it looks farther away than it is.
+double depth_of(const Detection& d, const Camera& camera) {
+  constexpr double kTorso = 0.44;  // m, shoulders to hips
+  for (const Joint joint : {right_shoulder, left_shoulder, right_hip, left_hip})
+    if (d.confidence[joint] < kSeen) return 0;
+  const Vec2 torso = 0.5 * (d.pixels.col(right_shoulder) + d.pixels.col(left_shoulder) - d.pixels.col(right_hip) - d.pixels.col(left_hip));
+  return torso.norm() > 1 ? kTorso * camera.fy / torso.norm() : 0;
+}
+
+}  // namespace
 
 View view_of(const Camera& camera, const Ground& ground) {
   // Of a level camera: x stays, its z looks along +y, its y down.
@@ -21,6 +33,7 @@ std::vector<Sight> sights_of(const Take& take, const std::vector<int>& persons, 
     sight.frame = detection.frame;
     sight.pixels = detection.pixels;
     sight.confidence = detection.confidence;
+    sight.depth = depth_of(detection, view.camera);
     for (int k = 0; k < kJoints; ++k) {
       const bool seen = detection.confidence[k] >= kSeen;
       sight.rays[k] = seen ? view.ray(detection.pixels.col(k)) : Vec3::UnitY();

@@ -32,6 +32,7 @@ struct Sight {
   PerJoint confidence = PerJoint::Zero();
   std::array<Vec3, kJoints> rays;  ///< unit
   std::array<Mat3, kJoints> information;
+  double depth = 0;  ///< m, rough: of a torso of usual length; 0 = not known
   std::optional<Pose> local;  ///< world axes, pelvis at the origin
 };
 
