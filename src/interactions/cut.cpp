@@ -10,6 +10,7 @@ namespace unseen::interactions {
 namespace {
 
 constexpr double kLongestGap = 0.5;     ///< s
+constexpr double kFarthest = 1000;      ///< m; what lies farther is in another unit
 constexpr double kSmoothRadius = 0.01;  ///< m
 constexpr int kSmoothRounds = 10;
 constexpr double kStillStep = 1.0;  ///< s between scenelets of somebody who stays
@@ -21,7 +22,8 @@ std::vector<double> arc_length(const std::vector<Vec3>& path) {
 }
 
 void check(const RecordedFrame& frame, const RecordedFrame* before, const std::string& source) {
-  if (!frame.pose.allFinite()) throw InputError(source, fmt::format("frame {}", frame.frame), "not a number", "joints in metres");
+  if (!(frame.pose.cwiseAbs().maxCoeff() <= kFarthest) || !frame.pose.allFinite())
+    throw InputError(source, fmt::format("frame {}", frame.frame), "a joint out of range", "joints in metres, within 1 km");
   if (before && frame.frame <= before->frame)
     throw InputError(source, "frames", fmt::format("{} after {}", frame.frame, before->frame), "ascending numbers");
 }
