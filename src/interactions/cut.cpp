@@ -10,7 +10,6 @@ namespace unseen::interactions {
 namespace {
 
 constexpr double kLongestGap = 0.5;     ///< s
-constexpr double kFarthest = 1000;      ///< m; what lies farther is in another unit
 constexpr double kSmoothRadius = 0.01;  ///< m
 constexpr int kSmoothRounds = 10;
 constexpr double kStillStep = 1.0;  ///< s between scenelets of somebody who stays
