@@ -21,7 +21,8 @@ std::vector<double> arc_length(const std::vector<Vec3>& path) {
 }
 
 void check(const RecordedFrame& frame, const RecordedFrame* before, const std::string& source) {
-  if (!frame.pose.allFinite()) throw InputError(source, fmt::format("frame {}", frame.frame), "not a number", "joints in metres");
+  if (!(frame.pose.cwiseAbs().maxCoeff() <= kFarthest) || !frame.pose.allFinite())
+    throw InputError(source, fmt::format("frame {}", frame.frame), "a joint out of range", "joints in metres, within 1 km");
   if (before && frame.frame <= before->frame)
     throw InputError(source, "frames", fmt::format("{} after {}", frame.frame, before->frame), "ascending numbers");
 }

@@ -8,6 +8,8 @@
 
 namespace unseen::interactions {
 
+constexpr double kFarthest = 1000;  ///< m; what lies farther is in another unit
+
 /// One person without a long gap: a pose for every frame from the first on.
 struct Track {
   int first_frame = 0;

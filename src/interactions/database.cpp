@@ -45,8 +45,9 @@ void check(const Recording& recording) {
   if (!(recording.fps > 0) || recording.fps > 1000) throw InputError(recording.name, "fps", fmt::format("{}", recording.fps), "above 0, at most 1000");
   for (const Object& object : recording.objects)
     for (const Part& part : object.parts)
-      if (!part.box.center.allFinite() || !part.box.axes.allFinite() || !part.box.half_size.allFinite())
-        throw InputError(recording.name, fmt::format("object {}, {}", object.id, part.name), "not a number", "a box in metres");
+      if (!RigidTransform{part.box.axes, part.box.center}.is_rigid() || !(part.box.half_size.minCoeff() >= 0) || !(part.box.half_size.maxCoeff() <= kFarthest) ||
+          !(part.box.center.norm() <= kFarthest))
+        throw InputError(recording.name, fmt::format("object {}, {}", object.id, part.name), "not a box", "one in metres, within 1 km, its axes at right angles");
 }
 
 void check(const SceneletOptions& o) {

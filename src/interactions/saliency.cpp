@@ -38,6 +38,21 @@ Table layouts(const std::vector<Scenelet>& scenelets, std::vector<std::size_t>& 
   return rows;
 }
 
+/// The same by superclass (all but "other"): who sits does so on a chair here and on a couch there.
+Table superclass_layouts(const std::vector<Scenelet>& scenelets) {
+  constexpr Eigen::Index kBins = kGrid * kGrid;
+  Table rows = Table::Zero(static_cast<Eigen::Index>(scenelets.size()), 3 * kBins);
+  for (std::size_t category = 0; category < kCategories.size(); ++category) {
+    const Superclass superclass = superclass_of(kCategories[category]);
+    if (superclass == Superclass::other) continue;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      auto block = rows.row(i).segment(static_cast<Eigen::Index>(superclass) * kBins, kBins);
+      block = block.cwiseMax(Eigen::Map<const Eigen::RowVectorXf>(&scenelets[static_cast<std::size_t>(i)].layout[category * kBins], kBins));
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 std::vector<double> densities(const std::vector<Scenelet>& scenelets) {
@@ -58,9 +73,11 @@ std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigm
   const Table motion = motions(scenelets);
   std::vector<std::size_t> used;
   const Table layout = layouts(scenelets, used);
+  const Table by_superclass = superclass_layouts(scenelets);
   const Eigen::RowVectorXf length2 = motion.colwise().squaredNorm();
   const std::vector<double> density = densities(scenelets);
   const Eigen::VectorXf rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse().cast<float>();
+  const Eigen::RowVectorXf chance = rarity.transpose() * by_superclass / rarity.sum();
   const auto count = static_cast<Eigen::Index>(scenelets.size());
   for (Eigen::Index begin = 0; begin < count; begin += kBlock) {
     const Eigen::Index rows = std::min<Eigen::Index>(kBlock, count - begin);
@@ -68,13 +85,15 @@ std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigm
     weight.rowwise() += length2;
     weight.colwise() += length2.segment(begin, rows).transpose().eval();
     weight = (weight.array().max(0.0f) * static_cast<float>(-0.5 / (sigma * sigma))).exp().matrix() * rarity.asDiagonal();
-    const Eigen::VectorXf sum = weight.rowwise().sum();
-    const Table h = sum.cwiseInverse().asDiagonal() * (weight * layout);
+    const Eigen::VectorXf total = weight.rowwise().sum();
+    weight = total.cwiseInverse().asDiagonal() * weight;
+    const Table h = weight * layout, by_motion = weight * by_superclass;
     for (Eigen::Index i = 0; i < rows; ++i) {
       Scenelet& scenelet = scenelets[static_cast<std::size_t>(begin + i)];
       scenelet.saliency.assign(scenelet.layout.size(), 0.0f);
       for (std::size_t j = 0; j < used.size(); ++j) scenelet.saliency[used[j]] = h(i, static_cast<Eigen::Index>(j));
-      scenelet.highest_saliency = static_cast<double>(*std::max_element(scenelet.saliency.begin(), scenelet.saliency.end()));
+      const auto lift = (by_motion.row(i) - chance).array() / (1.0f + 1e-6f - chance.array());
+      scenelet.highest_saliency = std::clamp(static_cast<double>(lift.maxCoeff()), 0.0, 1.0);
     }
   }
   return scenelets;
