@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "interactions/use.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "interactions/matching.h"
+
+namespace unseen::interactions {
+namespace {
+
+/// How far a point is from a box, along the box's axes, m: negative inside.
+Vec3 beyond(const OrientedBox& box, const Vec3& point) { return (box.axes.transpose() * (point - box.center)).cwiseAbs() - box.half_size; }
+
+/// Horizontal distance to the box's footprint; its last axis is up.
+double across(const OrientedBox& box, const Vec3& point) { return beyond(box, point).head<2>().cwiseMax(0.0).norm(); }
+
+double above(const OrientedBox& box, const Vec3& point) { return point.z() - (box.center.z() + box.half_size.z()); }
+
+bool starts_with(const std::string& text, const char* start) { return text.rfind(start, 0) == 0; }
+
+bool sits_on(const Pose& pose, const OrientedBox& seat) {
+  const Vec3 hips = pose.col(pelvis);
+  return across(seat, hips) < 0.15 && above(seat, hips) > -0.25 && above(seat, hips) < 0.35;
+}
+
+bool hand_over(const Pose& pose, const OrientedBox& top) {
+  for (const Joint hand : {right_wrist, left_wrist})
+    if (across(top, pose.col(hand)) < 0.1 && above(top, pose.col(hand)) > -0.15 && above(top, pose.col(hand)) < 0.35) return true;
+  return false;
+}
+
+bool hand_at(const Pose& pose, const OrientedBox& shelf) {
+  for (const Joint hand : {right_wrist, left_wrist})
+    if (beyond(shelf, pose.col(hand)).cwiseMax(0.0).norm() < 0.3) return true;
+  return false;
+}
+
+}  // namespace
+
+bool uses(const Pose& pose, const Object& object) {
+  for (const Part& part : object.parts) {
+    if (starts_with(part.name, "seat") && sits_on(pose, part.box)) return true;
+    if (starts_with(part.name, "top") && hand_over(pose, part.box)) return true;
+    if (starts_with(part.name, "shelf") && hand_at(pose, part.box)) return true;
+  }
+  return false;
+}
+
+std::vector<bool> used_objects(const Scenelet& scenelet) {
+  constexpr double kAround = 0.4;  // s
+  std::vector<bool> used(scenelet.objects.size(), false);
+  for (double offset = -kAround; offset < 1.5 * kAround; offset += kAround)
+    if (const auto pose = pose_at(scenelet, offset))
+      for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || uses(*pose, scenelet.objects[i]);
+  return used;
+}
+
+}  // namespace unseen::interactions
