@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interactions/evaluate_parts.h"
+#include "interactions/footprint.h"
 
 namespace unseen::interactions {
 namespace {
@@ -54,7 +55,7 @@ double overlap(const Object& a, const Object& b) {
   for (const Part& p : a.parts)
     for (const Part& q : b.parts)
       if (std::min(highest(p.box), highest(q.box)) > std::max(lowest(p.box), lowest(q.box)))
-        most = std::max(most, common_area(footprint(p.box), footprint(q.box)));
+        most = std::max(most, area(intersection(footprint(p.box), footprint(q.box))));
   return most;
 }
 

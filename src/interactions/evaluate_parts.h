@@ -35,9 +35,4 @@ double identity_share(const std::vector<Person>& found, const Recording& truth, 
 /// Fills `inside_objects` to `overlapping`. `result` is as it was, on its own floor.
 void score_consistency(const Reconstruction& result, const Recording& truth, Evaluation& e);
 
-/// Convex outline on the ground of a box, counter-clockwise.
-std::vector<Vec2> footprint(const OrientedBox& box);
-/// Area that two convex counter-clockwise polygons share, m².
-double common_area(const std::vector<Vec2>& a, const std::vector<Vec2>& b);
-
 }  // namespace unseen::interactions

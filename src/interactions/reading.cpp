@@ -5,20 +5,54 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interactions/saliency.h"
+#include "interactions/shadow.h"
 
 namespace unseen::interactions {
 namespace {
 
 constexpr double kHalf = 1.0, kStep = 0.3, kEvery = 0.2;  // s: half a window, between the poses compared, between readings
 constexpr std::size_t kRefined = 80, kKept = 40;
-constexpr double kTemperature = 0.002;  // m² of error over which a match loses most of its weight
+constexpr double kOcclusion = 0.5;      // of the occlusion cost to the squared distance
+constexpr double kTemperature = 0.001;  // m² of error over which a match loses most of its weight
 
-void weigh(Reading& reading, const Database& database, const std::vector<double>& rarity) {
+/// Mean of the occlusion cost over the glance's joints: those that are not seen should be behind the match's objects (thesis Eq. 6.3). m²
+double unexplained(const Match& match, const Glance& glance, const Scenelet& scenelet, const Vec3& camera) {
+  std::vector<Shadow> shadows;
+  for (const Object& object : scenelet.objects)
+    for (const Part& part : object.parts) shadows.emplace_back(match.placement * part.box, camera);
+  double cost = 0;
+  int joints = 0;
+  for (std::size_t i = 0; i < glance.sights.size(); ++i) {
+    const auto pose = pose_at(scenelet, glance.offsets[i]);
+    if (!pose) continue;
+    const Pose placed = match.placement * *pose;
+    for (int k = 0; k < kJoints; ++k) cost += occlusion_cost(placed.col(k), glance.sights[i]->confidence[k], shadows);
+    joints += kJoints;
+  }
+  return joints > 0 ? cost / joints : 0;
+}
+
+/// How much a match adds to better ones: scenelets of one recording and place are one testimony, told several times.
+std::vector<double> novelty(const std::vector<Match>& matches, const Database& database) {
+  constexpr double kSamePlace = 0.4;  // m
+  std::vector<double> novelty;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const Scenelet& mine = database.scenelets[static_cast<std::size_t>(matches[i].scenelet)];
+    int told = 1;
+    for (std::size_t j = 0; j < i; ++j) {
+      const Scenelet& other = database.scenelets[static_cast<std::size_t>(matches[j].scenelet)];
+      told += mine.recording == other.recording && (mine.origin.position - other.origin.position).norm() < kSamePlace;
+    }
+    novelty.push_back(1.0 / (told * told));
+  }
+  return novelty;
+}
+
+void weigh(Reading& reading, const Database& database) {
+  const std::vector<double> fresh = novelty(reading.matches, database);
   double total = 0;
-  for (const Match& match : reading.matches) {
-    const double fit = std::exp(-(match.error - reading.matches.front().error) / kTemperature);
-    reading.weights.push_back(fit * rarity[static_cast<std::size_t>(match.scenelet)]);
+  for (std::size_t i = 0; i < reading.matches.size(); ++i) {
+    reading.weights.push_back(fresh[i] * std::exp(-(reading.matches[i].error - reading.matches.front().error) / kTemperature));
     total += reading.weights.back();
   }
   for (double& weight : reading.weights) weight /= total;
@@ -35,14 +69,8 @@ void weigh(Reading& reading, const Database& database, const std::vector<double>
 
 }  // namespace
 
-std::vector<double> rarity_of(const Database& database) {
-  std::vector<double> rarity = densities(database.scenelets);
-  for (double& r : rarity) r = 1 / r;
-  return rarity;
-}
-
-std::vector<Reading> read_motion(const std::vector<Sight>& sights, const Database& database, const std::vector<double>& rarity, const View& view,
-                                 double fps, const Context& context) {
+std::vector<Reading> read_motion(const std::vector<Sight>& sights, const Database& database, const View& view,
+                                 double fps, bool occlusion, const Context& context) {
   std::vector<Glance> glances;
   const int every = std::max(1, static_cast<int>(std::lround(kEvery * fps)));
   for (const Sight& sight : sights)
@@ -54,12 +82,16 @@ std::vector<Reading> read_motion(const std::vector<Sight>& sights, const Databas
       Reading& reading = readings[i];
       reading.frame = glances[i].center;
       reading.glance = glances[i];
-      for (Match& match : matches[i]) refine(match, glances[i], database.scenelets[static_cast<std::size_t>(match.scenelet)], view);
+      for (Match& match : matches[i]) {
+        const Scenelet& scenelet = database.scenelets[static_cast<std::size_t>(match.scenelet)];
+        refine(match, glances[i], scenelet, view);
+        if (occlusion) match.error += kOcclusion * unexplained(match, glances[i], scenelet, view.center());
+      }
       std::sort(matches[i].begin(), matches[i].end(),
                 [](const Match& a, const Match& b) { return a.error != b.error ? a.error < b.error : a.scenelet < b.scenelet; });
       matches[i].resize(std::min(kKept, matches[i].size()));
       reading.matches = std::move(matches[i]);
-      if (!reading.matches.empty()) weigh(reading, database, rarity);
+      if (!reading.matches.empty()) weigh(reading, database);
     }
   });
   std::erase_if(readings, [](const Reading& reading) { return reading.matches.empty(); });

@@ -12,7 +12,7 @@ struct Reading {
   int frame = 0;
   Glance glance;
   std::vector<Match> matches;   ///< best first
-  std::vector<double> weights;  ///< of the matches, sum 1; scenelets of one place and time share theirs
+  std::vector<double> weights;  ///< of the matches, sum 1
   double likelihood = 0;        ///< of an interaction: weighted interaction saliency (thesis Section 6.4.2)
 
   /// Ground position of the pelvis, and its covariance over the matches.
@@ -20,11 +20,8 @@ struct Reading {
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
 };
 
-/// A reading every 0.2 s.
-std::vector<Reading> read_motion(const std::vector<Sight>& sights, const Database& database, const std::vector<double>& rarity, const View& view,
-                                 double fps, const Context& context);
-
-/// How little a scenelet's place is covered by others of its recording: 1/ρ of thesis Section 6.2.3.
-std::vector<double> rarity_of(const Database& database);
+/// A reading every 0.2 s. With `occlusion`, joints that are not seen speak for scenelets whose objects hide them.
+std::vector<Reading> read_motion(const std::vector<Sight>& sights, const Database& database, const View& view,
+                                 double fps, bool occlusion, const Context& context);
 
 }  // namespace unseen::interactions

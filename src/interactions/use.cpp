@@ -49,11 +49,15 @@ bool uses(const Pose& pose, const Object& object) {
 }
 
 std::vector<bool> used_objects(const Scenelet& scenelet) {
-  constexpr double kAround = 0.4;  // s
+  constexpr double kAround = 0.4;   // s
+  constexpr double kSlowest = 0.5;  // m/s: who walks by a table or a shelf does not use it
+  const auto before = pose_at(scenelet, -kAround), after = pose_at(scenelet, kAround);
+  const bool walks = before && after && (after->col(pelvis) - before->col(pelvis)).head<2>().norm() > 2 * kAround * kSlowest;
   std::vector<bool> used(scenelet.objects.size(), false);
-  for (double offset = -kAround; offset < 1.5 * kAround; offset += kAround)
+  for (const double offset : {-kAround, 0.0, kAround})
     if (const auto pose = pose_at(scenelet, offset))
-      for (std::size_t i = 0; i < used.size(); ++i) used[i] = used[i] || uses(*pose, scenelet.objects[i]);
+      for (std::size_t i = 0; i < used.size(); ++i)
+        if (!walks || scenelet.objects[i].superclass() == Superclass::sit) used[i] = used[i] || uses(*pose, scenelet.objects[i]);
   return used;
 }
 

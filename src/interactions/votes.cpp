@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "interactions/votes.h"
+
+#include <cmath>
+#include <map>
+
+namespace unseen::interactions {
+namespace {
+
+/// How votes of a superclass gather: sd across and along the view (m, share of the distance), and what is enough.
+struct Habit {
+  double across, along;
+  double least_time;   // s
+  double least_share;  // of a reading's matches
+};
+constexpr std::array<Habit, 3> kHabits = {{{0.16, 0.07, 0.5, 0.5}, {0.30, 0.10, 1.0, 0.5}, {0.30, 0.10, 1.5, 0.4}}};
+constexpr double kGate = 2.5;  // sd
+
+/// Squared distance of two places in standard deviations.
+double apart(const Vec2& a, const Vec2& b, const Habit& habit, const Vec2& camera) {
+  const Vec2 middle = 0.5 * (a + b) - camera, along = middle.normalized(), off = a - b;
+  const double depth = off.dot(along) / (habit.along * middle.norm()), side = (off.x() * along.y() - off.y() * along.x()) / habit.across;
+  return depth * depth + side * side;
+}
+
+/// The vote around which most mass gathers.
+std::size_t densest(const std::vector<Vote>& votes, const std::vector<std::size_t>& open, const Habit& habit, const Vec2& camera) {
+  std::size_t best = open.front();
+  double most = -1;
+  for (const std::size_t i : open) {
+    double density = 0;
+    for (const std::size_t j : open) density += votes[j].mass * std::exp(-0.5 * apart(votes[i].place, votes[j].place, habit, camera));
+    if (density <= most) continue;
+    most = density;
+    best = i;
+  }
+  return best;
+}
+
+/// Largest share of a reading's matches, as a mean over three readings.
+double peak_share(const std::vector<Vote>& votes, const std::vector<std::size_t>& members) {
+  std::map<std::pair<int, std::size_t>, double> shares;
+  for (const std::size_t i : members) shares[{votes[i].person, votes[i].reading}] += votes[i].share;
+  double peak = 0;
+  for (const auto& [at, share] : shares) {
+    double sum = share;
+    if (const auto before = shares.find({at.first, at.second - 1}); before != shares.end()) sum += before->second;
+    if (const auto after = shares.find({at.first, at.second + 1}); after != shares.end()) sum += after->second;
+    peak = std::max(peak, sum / 3);
+  }
+  return peak;
+}
+
+/// The object that the votes describe: category of most mass, its most typical vote moved to their mean place.
+Object describe(const std::vector<Vote>& votes, const std::vector<std::size_t>& members) {
+  std::map<std::string, double> masses;
+  for (const std::size_t i : members) masses[votes[i].object.category] += votes[i].mass;
+  const std::string category = std::max_element(masses.begin(), masses.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  Vec3 mean = Vec3::Zero();
+  double mass = 0;
+  for (const std::size_t i : members) {
+    if (votes[i].object.category != category) continue;
+    mean += votes[i].mass * votes[i].object.center();
+    mass += votes[i].mass;
+  }
+  mean /= mass;
+  const Vote* typical = nullptr;
+  double least = 0;
+  for (const std::size_t i : members) {
+    if (votes[i].object.category != category) continue;
+    const double cost = (votes[i].object.center() - mean).squaredNorm() - 0.2 * votes[i].share;
+    if (typical && cost >= least) continue;
+    typical = &votes[i];
+    least = cost;
+  }
+  Vec3 shift = mean - typical->object.center();
+  shift.z() = 0;  // it stands on the floor
+  return Placement{shift, 0} * typical->object;
+}
+
+}  // namespace
+
+std::vector<Vote> votes_of(int person, const std::vector<Reading>& readings, const Path& path, const Database& database,
+                           const std::vector<std::vector<bool>>& used, double seconds) {
+  std::vector<Vote> votes;
+  for (std::size_t r = 0; r < readings.size(); ++r)
+    for (std::size_t i = 0; i < readings[r].matches.size(); ++i) {
+      const Match& match = readings[r].matches[i];
+      const Scenelet& scenelet = database.scenelets[static_cast<std::size_t>(match.scenelet)];
+      Placement placement = match.placement;
+      placement.position.head<2>() = path.at(readings[r].frame);
+      for (std::size_t o = 0; o < scenelet.objects.size(); ++o) {
+        const Object& object = scenelet.objects[o];
+        if (!used[static_cast<std::size_t>(match.scenelet)][o] || object.superclass() == Superclass::other) continue;
+        Vote vote{person, r, match.scenelet, placement * object, Vec2::Zero(), readings[r].weights[i] * seconds, readings[r].weights[i]};
+        vote.place = object.superclass() == Superclass::sit ? Vec2(placement.position.head<2>()) : Vec2(vote.object.center().head<2>());
+        votes.push_back(std::move(vote));
+      }
+    }
+  return votes;
+}
+
+Gathered gather_objects(const std::vector<Vote>& votes, const View& view) {
+  Gathered gathered;
+  const Vec2 camera = view.center().head<2>();
+  for (std::size_t superclass = 0; superclass < kHabits.size(); ++superclass) {
+    const Habit& habit = kHabits[superclass];
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < votes.size(); ++i)
+      if (votes[i].object.superclass() == static_cast<Superclass>(superclass)) open.push_back(i);
+    while (!open.empty()) {
+      const Vec2 center = votes[densest(votes, open, habit, camera)].place;
+      std::vector<std::size_t> members, rest;
+      double mass = 0;
+      for (const std::size_t i : open) {
+        const bool near = apart(votes[i].place, center, habit, camera) < kGate * kGate;
+        (near ? members : rest).push_back(i);
+        if (near) mass += votes[i].mass;
+      }
+      open = std::move(rest);
+      if (mass < habit.least_time) break;  // nothing left gathers more
+      const double share = peak_share(votes, members);
+      if (share < habit.least_share) continue;
+      FoundObject found;
+      found.object = describe(votes, members);
+      found.object.id = static_cast<int>(gathered.objects.size());
+      found.confidence = share * (1 - std::exp(-mass / habit.least_time));
+      gathered.objects.push_back(std::move(found));
+      gathered.members.push_back(std::move(members));
+    }
+  }
+  return gathered;
+}
+
+}  // namespace unseen::interactions
