@@ -12,7 +12,7 @@
 namespace unseen::interactions {
 namespace {
 
-constexpr double kAnkleHeight = 0.09;      // m
+constexpr double kAnkleHeight = 0.13;         // m, of the joint that detectors mark
 constexpr double kTorso = 0.44, kLeg = 0.77;  // m, shoulders to hips and hip to ankle of an adult of 1.7 m
 constexpr double kUsualHeight = 1.2, kHeightSd = 0.5;        // m, of cameras that film people
 constexpr double kUsualPitch = 0.05, kPitchSd = 0.06;        // rad
@@ -44,15 +44,15 @@ std::optional<Foot> lower_foot(const Detection& d, const Camera& camera) {
   return Foot{depth, (leg->y() - camera.cy) / camera.fy * depth};
 }
 
-/// Least squares with Cauchy weights of below = height − slope · depth. A prior on the slope counts as a third of the feet: their depths are
-/// wrong together when the person is not of usual size.
-Vec2 fit_floor(const std::vector<Foot>& feet) {
-  const double slope_weight = std::max(1.0, static_cast<double>(feet.size()) / 9.0) / (kPitchSd * kPitchSd);
-  Vec2 fit(kUsualHeight, kUsualPitch);
+/// Least squares with Cauchy weights of below = height − slope · depth; the slope is drawn to `usual` by `sd`. The slope's prior counts for more
+/// where there are many feet: their depths are wrong together when the person is not of usual size.
+Vec2 fit_floor(const std::vector<Foot>& feet, double usual, double sd) {
+  const double slope_weight = std::max(1.0, static_cast<double>(feet.size()) / 9.0) / (sd * sd);
+  Vec2 fit(kUsualHeight, usual);
   std::vector<double> weights(feet.size(), 1.0);
   for (int round = 0; round < 30; ++round) {
     Eigen::Matrix2d normal = Eigen::Vector2d(1.0 / (kHeightSd * kHeightSd), slope_weight).asDiagonal();
-    Vec2 right(kUsualHeight / (kHeightSd * kHeightSd), slope_weight * kUsualPitch);
+    Vec2 right(kUsualHeight / (kHeightSd * kHeightSd), slope_weight * usual);
     for (std::size_t i = 0; i < feet.size(); ++i) {
       const Vec2 row(1.0, -feet[i].depth);
       const double weight = weights[i] / (kFloorSd * kFloorSd);
@@ -68,28 +68,35 @@ Vec2 fit_floor(const std::vector<Foot>& feet) {
   return fit;
 }
 
+double median_depth(std::vector<Foot> feet) {
+  const auto middle = feet.begin() + static_cast<std::ptrdiff_t>(feet.size() / 2);
+  std::nth_element(feet.begin(), middle, feet.end(), [](const Foot& a, const Foot& b) { return a.depth < b.depth; });
+  return middle->depth;
+}
+
 }  // namespace
 
-Ground find_ground(const Take& take, Context& context) {
+GroundStart find_ground(const Take& take, Context& context) {
   std::vector<Foot> feet;
   for (const Detection& detection : take.detections)
     if (const auto foot = lower_foot(detection, take.camera)) feet.push_back(*foot);
-  Ground ground;
-  Vec2 floor = fit_floor(feet);
-  ground.source = feet.empty() ? "assumed" : "feet";
-  ground.pitch = std::atan(floor.y());
-  ground.camera_height = floor.x() * std::cos(ground.pitch) + kAnkleHeight;
+  GroundStart start;
+  Ground& ground = start.ground;
+  start.feet = static_cast<int>(feet.size());
+  if (!feet.empty()) start.depth = median_depth(feet);
   if (take.up) {
     ground.pitch = std::asin(std::clamp(-take.up->z(), -1.0, 1.0));
     ground.roll = std::atan2(-take.up->x(), -take.up->y());
   }
-  if (take.camera_height) {
-    ground.camera_height = *take.camera_height;
-    ground.source = "given";
-  }
+  constexpr double kKnown = 1e-3;
+  const Vec2 floor = take.up ? fit_floor(feet, std::tan(ground.pitch), kKnown) : fit_floor(feet, kUsualPitch, kPitchSd);
+  ground.source = take.camera_height ? "given" : feet.empty() ? "assumed" : "feet";
+  ground.pitch = std::atan(floor.y());
+  ground.camera_height = take.camera_height.value_or(floor.x() * std::cos(ground.pitch) + kAnkleHeight);
+  start.below = floor.x() - floor.y() * start.depth + kAnkleHeight;
   if (feet.empty() && !take.camera_height)
-    context.warn(fmt::format("nobody is seen upright with feet on the floor: the camera is taken to be {:.1f} m high", ground.camera_height));
-  return ground;
+    context.warn(fmt::format("nobody is seen upright with feet on the floor: the camera's height is a guess, {:.1f} m", ground.camera_height));
+  return start;
 }
 
 }  // namespace unseen::interactions

@@ -9,7 +9,7 @@
 namespace unseen::interactions {
 namespace {
 
-constexpr std::size_t kScenelets = 1200, kGlances = 150;  // enough to tell; spread evenly
+constexpr std::size_t kScenelets = 1000, kGlances = 80;  // enough to tell; spread evenly
 
 /// Evenly spread scenelets.
 Database thinned(const Database& database) {
@@ -22,13 +22,13 @@ Database thinned(const Database& database) {
 
 class Misfit {
  public:
-  Misfit(const Take& take, const std::vector<int>& persons, const Database& database, const Context& context)
-      : take_(take), persons_(persons), database_(thinned(database)), context_(context) {}
+  Misfit(const Take& take, const std::vector<int>& persons, const Database& database, const GroundStart& feet, const Context& context)
+      : take_(take), persons_(persons), database_(thinned(database)), feet_(feet), context_(context) {}
 
-  /// Mean error of the best matches, m², and a weak pull to cameras as people set them up.
+  /// Mean error of the best matches, m², and weak pulls to the floor as feet have it and to cameras as people set them up.
   double operator()(const Ground& ground) const {
     constexpr double kHalf = 1.0, kStep = 0.3;  // s
-    constexpr std::size_t kTried = 8;
+    constexpr std::size_t kTried = 6;
     const View view = view_of(take_.camera, ground);
     std::vector<std::vector<Sight>> people;
     for (int person = 0; person < take_.people; ++person) people.push_back(sights_of(take_, persons_, person, view));
@@ -49,24 +49,28 @@ class Misfit {
     });
     double sum = 0;
     for (const double error : errors) sum += error;
-    const double high = (ground.camera_height - 1.3) / 0.4, steep = (ground.pitch - 0.05) / 0.15;
-    return sum / std::max<double>(1, static_cast<double>(errors.size())) + 1e-4 * (high * high + steep * steep);
+    const double high = (ground.camera_height - 1.3) / 0.4, steep = (ground.pitch - 0.06) / 0.06;
+    const double below = ground.camera_height / std::cos(ground.pitch) - std::tan(ground.pitch) * feet_.depth;
+    const double floor = (below - feet_.below) / kFloorSd * std::min(1.0, feet_.feet / 10.0);
+    return sum / std::max<double>(1, static_cast<double>(errors.size())) + kPull * (high * high + steep * steep + 2 * floor * floor);
   }
 
  private:
-  static constexpr double kWorst = 0.08;  // m²
+  static constexpr double kWorst = 0.08, kPull = 1e-4;  // m²
+  static constexpr double kFloorSd = 0.08;              // m
   const Take& take_;
   const std::vector<int>& persons_;
   Database database_;
+  const GroundStart& feet_;
   const Context& context_;
 };
 
 }  // namespace
 
-Ground fit_ground(const Take& take, const std::vector<int>& persons, const Database& database, const Ground& start, const Context& context) {
+Ground fit_ground(const Take& take, const std::vector<int>& persons, const Database& database, const GroundStart& start, const Context& context) {
   const bool fixed_height = take.camera_height.has_value(), fixed_pitch = take.up.has_value();
-  if ((fixed_height && fixed_pitch) || database.scenelets.empty()) return start;
-  const Misfit misfit(take, persons, database, context);
+  if ((fixed_height && fixed_pitch) || database.scenelets.empty()) return start.ground;
+  const Misfit misfit(take, persons, database, start, context);
   std::map<std::pair<long, long>, double> known;
   const auto value = [&](const Ground& g) {
     const auto [entry, fresh] = known.try_emplace({std::lround(1e4 * g.camera_height), std::lround(1e4 * g.pitch)}, 0.0);
@@ -75,7 +79,7 @@ Ground fit_ground(const Take& take, const std::vector<int>& persons, const Datab
   };
   // Height and pitch make up for each other along a valley, so a step of height takes the pitch along that keeps the floor where people are.
   constexpr double kUsualDepth = 4.0;  // m
-  Ground best = start;
+  Ground best = start.ground;
   double least = value(best);
   for (double step = 0.32; step > 0.015; step *= 0.5) {
     for (bool better = true; better;) {
