@@ -32,5 +32,6 @@ Command add_synth_collision(CLI::App& synth);
 Command add_evaluate_planes(CLI::App& evaluate);
 Command add_evaluate_cuboids(CLI::App& evaluate);
 Command add_evaluate_collision(CLI::App& evaluate);
+Command add_evaluate_interactions(CLI::App& evaluate);
 
 }  // namespace unseen::cli
