@@ -33,5 +33,6 @@ Command add_synth_interactions(CLI::App& synth);
 Command add_evaluate_planes(CLI::App& evaluate);
 Command add_evaluate_cuboids(CLI::App& evaluate);
 Command add_evaluate_collision(CLI::App& evaluate);
+Command add_evaluate_interactions(CLI::App& evaluate);
 
 }  // namespace unseen::cli

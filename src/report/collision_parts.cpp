@@ -8,16 +8,10 @@ namespace unseen::report {
 
 using namespace collision;
 
-constexpr std::size_t kMostPixels = 1'000'000'000;
-
 Json quaternion_of(const Quat& q) { return Json::array({number(q.w()), number(q.x()), number(q.y()), number(q.z())}); }
 
 Json state_of(const BodyState& s) {
   return {{"p", vector_of(s.p)}, {"v", vector_of(s.v)}, {"k", vector_of(s.k)}, {"q", quaternion_of(s.q)}};
-}
-
-Json camera_of(const Camera& c) {
-  return {{"fx", number(c.fx)}, {"fy", number(c.fy)}, {"cx", number(c.cx)}, {"cy", number(c.cy)}, {"width", c.width}, {"height", c.height}};
 }
 
 Json impact_of(const collision::Impact& i, Json restitution, const std::array<std::string, 2>& names) {
@@ -47,11 +41,6 @@ Quat read_unit_quaternion(const JsonField& json) {
 
 BodyState read_state(const JsonField& json) {
   return {json["p"].vector(), json["v"].vector(), json["k"].vector(), read_unit_quaternion(json["q"])};
-}
-
-Camera read_camera(const JsonField& json) {
-  return {json["fx"].number(0), json["fy"].number(0), json["cx"].number(), json["cy"].number(), json["width"].index(kMostPixels),
-          json["height"].index(kMostPixels)};
 }
 
 }  // namespace unseen::report

@@ -20,7 +20,6 @@ Json or_null(const std::optional<T>& value, Write write) {
 /// [w, x, y, z].
 Json quaternion_of(const collision::Quat& q);
 Json state_of(const collision::BodyState& s);
-Json camera_of(const Camera& c);
 /// An impact between two of the `names`, with its restitution as given.
 Json impact_of(const collision::Impact& i, Json restitution, const std::array<std::string, 2>& names);
 
@@ -28,6 +27,5 @@ std::optional<double> read_number_or_null(const JsonField& json);
 /// Of length 1 within 1e-6.
 collision::Quat read_unit_quaternion(const JsonField& json);
 collision::BodyState read_state(const JsonField& json);
-Camera read_camera(const JsonField& json);
 
 }  // namespace unseen::report

@@ -10,11 +10,6 @@ Json vectors_of(const std::vector<Vec3>& vectors) {
   return list_of(vectors, [](const Vec3& v, std::size_t) { return vector_of(v); });
 }
 
-/// A row an axis of the box.
-Json axes_of(const Mat3& axes) {
-  return Json::array({vector_of(axes.col(0)), vector_of(axes.col(1)), vector_of(axes.col(2))});
-}
-
 Json support_of(const cuboids::Support& s) {
   Json json = {{"id", s.id},
                {"kind", cuboids::kSupportKinds[static_cast<int>(s.kind)]},

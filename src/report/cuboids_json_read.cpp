@@ -16,29 +16,10 @@ using Ids = std::set<int>;
 
 constexpr std::size_t kMostIds = 1'000'000'000;
 
-/// An id that nothing before had.
-int new_id(const JsonField& json, Ids& ids) {
-  const int id = json.index(kMostIds);
-  if (!ids.insert(id).second) json.fail("an id of its own");
-  return id;
-}
-
 int known_id(const JsonField& json, const Ids& ids) {
   const int id = json.index(kMostIds);
   if (ids.count(id) == 0) json.fail("the id of a support or cuboid");
   return id;
-}
-
-/// The place of a text in a list of names.
-template <class Kind, std::size_t N>
-Kind kind_of(const JsonField& json, const char* const (&names)[N]) {
-  const std::string text = json.text();
-  std::string all;
-  for (std::size_t i = 0; i < N; ++i) {
-    if (text == names[i]) return static_cast<Kind>(i);
-    all += (i == 0 ? "" : ", ") + std::string(names[i]);
-  }
-  json.fail("one of " + all);
 }
 
 std::vector<Vec3> vectors(const JsonField& json) {
@@ -50,11 +31,7 @@ std::vector<Vec3> vectors(const JsonField& json) {
 OrientedBox box(const JsonField& json, const std::string& prefix) {
   OrientedBox b;
   b.center = json[prefix + "center"].vector();
-  const JsonField axes = json[prefix + "axes"];
-  const auto rows = axes.list();
-  if (rows.size() != 3) axes.fail("three axes");
-  for (Eigen::Index a = 0; a < 3; ++a) b.axes.col(a) = rows[static_cast<std::size_t>(a)].vector();
-  if (!RigidTransform{b.axes, Vec3::Zero()}.is_rigid(1e-6)) axes.fail("three right-handed axes of length 1");
+  b.axes = read_axes(json[prefix + "axes"]);
   b.half_size = 0.5 * json[prefix + "size"].vector();
   if (!(b.half_size.minCoeff() > 0.0)) json[prefix + "size"].fail("three sizes above 0");
   return b;

@@ -19,21 +19,6 @@ constexpr std::size_t kMostIds = 1'000'000'000;
 constexpr double kMillimetre = 1e-3;
 constexpr int kFirstObject = 20;  // labels below mark the support
 
-template <class Kind, std::size_t N>
-Kind kind_of(const JsonField& json, const char* const (&names)[N]) {
-  for (std::size_t i = 0; i < N; ++i)
-    if (json.text() == names[i]) return static_cast<Kind>(i);
-  std::string all;
-  for (const char* name : names) all += (all.empty() ? "" : ", ") + std::string(name);
-  json.fail("one of " + all);
-}
-
-int new_id(const JsonField& json, std::set<int>& ids) {
-  const int id = json.index(kMostIds);
-  if (!ids.insert(id).second) json.fail("an id of its own");
-  return id;
-}
-
 int known_id(const JsonField& json, const std::set<int>& ids) {
   const int id = json.index(kMostIds);
   if (ids.count(id) == 0) json.fail("the id of a support or cuboid");

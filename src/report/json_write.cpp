@@ -46,6 +46,14 @@ Json vector_of(const Vec3& v) {
   return Json::array({number(v.x()), number(v.y()), number(v.z())});
 }
 
+Json axes_of(const Mat3& axes) {
+  return Json::array({vector_of(axes.col(0)), vector_of(axes.col(1)), vector_of(axes.col(2))});
+}
+
+Json camera_of(const Camera& c) {
+  return {{"fx", number(c.fx)}, {"fy", number(c.fy)}, {"cx", number(c.cx)}, {"cy", number(c.cy)}, {"width", c.width}, {"height", c.height}};
+}
+
 Json matrix_of(const RigidTransform& T, double scale) {
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r) {

@@ -22,6 +22,12 @@ Json degrees_of(double radians);
 
 Json vector_of(const Vec3& v);
 
+/// Columns of a rotation, a row each in the file.
+Json axes_of(const Mat3& axes);
+
+/// fx, fy, cx, cy, width, height.
+Json camera_of(const Camera& camera);
+
 /// Four rows of four numbers, the rotation times `scale`.
 Json matrix_of(const RigidTransform& T, double scale = 1.0);
 

@@ -70,6 +70,28 @@ RigidTransform read_transform(const JsonField& json) {
   return t;
 }
 
+Mat3 read_axes(const JsonField& json) {
+  if (json.size() != 3) json.fail("three axes");
+  const auto rows = json.list();
+  Mat3 axes;
+  for (Eigen::Index a = 0; a < 3; ++a) axes.col(a) = rows[static_cast<std::size_t>(a)].vector();
+  if (!RigidTransform{axes, Vec3::Zero()}.is_rigid(1e-6)) json.fail("three right-handed axes of length 1");
+  return axes;
+}
+
+Camera read_camera(const JsonField& json) {
+  constexpr std::size_t kMostPixels = 1'000'000'000;
+  return {json["fx"].number(0), json["fy"].number(0), json["cx"].number(), json["cy"].number(), json["width"].index(kMostPixels),
+          json["height"].index(kMostPixels)};
+}
+
+int new_id(const JsonField& json, std::set<int>& ids) {
+  constexpr std::size_t kMostIds = 1'000'000'000;
+  const int id = json.index(kMostIds);
+  if (!ids.insert(id).second) json.fail("an id of its own");
+  return id;
+}
+
 StoredRun read_stored_run(const std::filesystem::path& path) {
   const nlohmann::json parsed = parse_json(read_result_text(path), path.string());
   const JsonField json(parsed, path.string());
