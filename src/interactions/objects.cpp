@@ -20,13 +20,17 @@ Superclass superclass_of(const std::string& category) {
   }
 }
 
+bool is_main(const Part& part) {
+  const std::string name = part.name.substr(0, part.name.find('-'));
+  return name == "seat" || name == "top" || name == "shelf";
+}
+
 Vec3 Object::center() const {
   Vec3 main = Vec3::Zero(), all = Vec3::Zero();
   int count = 0;
   for (const Part& part : parts) {
-    const std::string name = part.name.substr(0, part.name.find('-'));
     all += part.box.center;
-    if (name != "seat" && name != "top" && name != "shelf") continue;
+    if (!is_main(part)) continue;
     main += part.box.center;
     ++count;
   }

@@ -38,6 +38,8 @@ class JsonField {
   JsonField operator[](const std::string& key) const;
   bool has(const std::string& key) const;
   bool is_null() const { return value_->is_null(); }
+  bool is_array() const { return value_->is_array(); }
+  bool is_object() const { return value_->is_object(); }
   /// The entries of an array.
   std::vector<JsonField> list() const;
   /// The members of an object, in the file's order of names.

@@ -20,6 +20,7 @@ struct ObjectScore {
 
 struct PoseScore {
   int frames = 0;
+  int interpolated = 0;  ///< of them, those that the result lacks: taken between its nearest frames
   double local = 0;  ///< m, mean over joints, then frames; pelvis at the origin
   double world = 0;  ///< share of the ground diagonal of all true joints
 };

@@ -30,6 +30,9 @@ struct Part {
   OrientedBox box;   ///< axes: columns, the last one up
 };
 
+/// Named seat, top or shelf: what people use, and what says where the object is.
+bool is_main(const Part& part);
+
 /// A piece of furniture: one box a part. Its main part (seat, top, shelves) says where it is.
 struct Object {
   int id = -1;
