@@ -50,19 +50,22 @@ std::vector<Place> stroll(const std::vector<Vec2>& path, double heading, double 
   return places;
 }
 
-Vec3 footprint(const Body& body, const Place& place, int side) {
-  return Vec3(place.at.x(), place.at.y(), body.ankle) + outward(side) * (1.05 - 0.25 * std::min(1.0, place.speed)) * body.hip * rightward(place.heading);
+/// Feet are closer together in walking than in standing, where one is a little ahead (`stagger`, m).
+Vec3 footprint(const Body& body, const Place& place, double stagger, int side) {
+  const double slow = 1.0 - std::min(1.0, place.speed / 0.5);
+  return Vec3(place.at.x(), place.at.y(), body.ankle) + outward(side) * (0.8 + 0.3 * slow) * body.hip * rightward(place.heading) +
+         0.5 * outward(side) * slow * stagger * ahead(place.heading);
 }
 
 /// Feet take turns; each is put down where the trunk will be in the middle of the time for which it stands there.
-std::vector<std::array<Vec3, 2>> step(std::vector<Place>& places, const Body& body, std::array<Vec3, 2> feet) {
+std::vector<std::array<Vec3, 2>> step(std::vector<Place>& places, const Body& body, double stagger, std::array<Vec3, 2> feet) {
   const auto at = [&](std::size_t k) -> const Place& { return places[std::min(k, places.size() - 1)]; };
   std::vector<std::array<Vec3, 2>> track;
-  int side = (footprint(body, at(30), kRight) - feet[kRight]).norm() > (footprint(body, at(30), kLeft) - feet[kLeft]).norm() ? kRight : kLeft;
+  int side = (footprint(body, at(30), stagger, kRight) - feet[kRight]).norm() > (footprint(body, at(30), stagger, kLeft) - feet[kLeft]).norm() ? kRight : kLeft;
   for (int idle = 0; idle < 3;) {
     const double cadence = 0.64 - 0.10 * at(track.size() + 15).speed * std::sqrt(1.7 / body.height);
     const auto frames = static_cast<std::size_t>(cadence * kRate);
-    const Vec3 target = footprint(body, at(track.size() + frames + frames / 2), side), start = feet[static_cast<std::size_t>(side)];
+    const Vec3 target = footprint(body, at(track.size() + frames + frames / 2), stagger, side), start = feet[static_cast<std::size_t>(side)];
     const double distance = (target - start).norm();
     const bool ended = track.size() >= places.size();
     if (distance < (ended ? 0.02 : 0.05)) {  // stays
@@ -77,7 +80,7 @@ std::vector<std::array<Vec3, 2>> step(std::vector<Place>& places, const Body& bo
     idle = 0;
     for (std::size_t k = 1; k <= frames; ++k) {
       const double u = static_cast<double>(k) / static_cast<double>(frames);
-      const double height = (0.05 + 0.09 * std::min(1.0, distance / 0.8)) * std::sin(kPi * std::pow(u, 0.75));  // heel first
+      const double height = (0.05 + 0.07 * std::min(1.0, distance / 0.8)) * std::sin(kPi * std::pow(u, 0.75));  // heel first
       feet[static_cast<std::size_t>(side)] = start + ease(u) * (target - start) + std::max(0.0, height) * Vec3::UnitZ();
       track.push_back(feet);
     }
@@ -103,14 +106,14 @@ std::vector<double> averaged(const std::vector<double>& values, int radius) {
 
 /// As high as both legs allow, over every moment, so that the pelvis dips where steps are long.
 std::vector<double> pelvis_heights(const Body& body, const std::vector<Place>& places, const std::vector<std::array<Vec3, 2>>& feet) {
-  constexpr int kRadius = 7;
+  constexpr int kRadius = 5;
   std::vector<double> highest;
   for (std::size_t k = 0; k < places.size(); ++k) {
     double z = body.standing();
     for (const int side : {kRight, kLeft}) {
       const Vec2 hip = places[k].at + (outward(side) * body.hip * rightward(places[k].heading)).head<2>();
       const Vec3& foot = feet[k][static_cast<std::size_t>(side)];
-      const double across = (foot.head<2>() - hip).squaredNorm(), leg = 0.985 * body.leg();
+      const double across = (foot.head<2>() - hip).squaredNorm(), leg = kStraight * body.leg();
       z = std::min(z, foot.z() + std::sqrt(std::max(0.3 * leg * leg, leg * leg - across)));
     }
     highest.push_back(z);
@@ -142,7 +145,7 @@ Manner draw_manner(Random& random) {
 void walk(Motion& motion, const Body& body, const Manner& manner, const std::vector<Vec2>& path, double final_heading) {
   const Posture start = motion.back().posture;
   std::vector<Place> places = stroll(path, heading(start.hips), final_heading, manner);
-  const std::vector<std::array<Vec3, 2>> feet = step(places, body, start.feet);
+  const std::vector<std::array<Vec3, 2>> feet = step(places, body, 0.08 * std::sin(manner.phase + static_cast<double>(path.size())), start.feet);
   const std::vector<double> heights = pelvis_heights(body, places, feet);
   std::vector<double> sway, stride, lean, turn;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -169,7 +172,10 @@ void walk(Motion& motion, const Body& body, const Manner& manner, const std::vec
     p.feet = feet[k];
     for (const int side : {kRight, kLeft})
       p.hands[side] = hanging_hand(body, p, side, 0.03 + outward(side) * manner.swing * stride[k], 0.25 + 0.15 * places[k].speed + 0.2 * std::max(0.0, outward(side) * stride[k]));
-    m.action = places[k].speed > 0.15 || std::abs(stride[k]) > 0.2 ? Action::walk : Action::stand;
+    if (manner.carrying >= 0)
+      p.hands[static_cast<std::size_t>(manner.carrying)] = p.pelvis + p.chest * Vec3(outward(manner.carrying) * 0.06, 0.27, 0.5 * body.trunk);
+    const bool stepping = std::max(feet[k][kRight].z(), feet[k][kLeft].z()) > body.ankle + 0.01;
+    m.action = stepping || places[k].speed > 0.15 ? Action::walk : Action::stand;
     walked.push_back(m);
   }
   // how the trunk and the arms were before fades out, seen from the body

@@ -17,11 +17,11 @@ Posture reaching(const Body& body, const Posture& stand, const Targets& targets)
   double lowest = 2.0;
   for (const auto& t : targets)
     if (t) lowest = std::min(lowest, t->z());
-  const double squat = std::clamp(0.9 - lowest, 0.0, 0.5);
+  const double squat = std::clamp(0.75 * (0.9 - lowest), 0.0, 0.4);
   Posture p = stand;
   for (double effort = 0; effort <= 1.0; effort += 0.02) {
-    const double bend = (lowest > 1.25 ? 0.4 : 1.15) * effort, twist = both ? 0.0 : (targets[kRight] ? 0.5 : -0.5) * std::min(1.0, 1.5 * effort);
-    p.pelvis = stand.pelvis + ahead(facing) * (0.06 * effort - 0.28 * body.trunk * std::sin(bend)) - Vec3(0, 0, squat * effort * 0.9);
+    const double bend = (lowest > 1.25 ? 0.4 : 1.3) * effort, twist = both ? 0.0 : (targets[kRight] ? 0.5 : -0.5) * std::min(1.0, 1.5 * effort);
+    p.pelvis = stand.pelvis + ahead(facing) * (0.06 * effort - 0.28 * body.trunk * std::sin(bend)) - Vec3(0, 0, squat * effort);
     p.hips = about_z(facing + 0.3 * twist) * about_x(-0.4 * bend);
     p.chest = about_z(facing + twist) * about_x(-bend);
     bool there = true;

@@ -116,7 +116,7 @@ void add_group(Room& room, int most, Random& random) {
 
 View draw_view(int width, int height, Random& random) {
   View v;
-  const double focal = 0.5 * width / std::tan(0.5 * radians(random.uniform(54.0, 68.0)));
+  const double focal = 0.5 * width / std::tan(0.5 * radians(random.uniform(50.0, 64.0)));
   v.camera = {focal, focal, 0.5 * (width - 1), 0.5 * (height - 1), width, height};
   const double up = random.uniform(0.8, 1.8);
   // aimed at the middle of people some 5 m away, by hand
@@ -149,6 +149,7 @@ Room draw_room(const View& view, int pieces, Random& random) {
     if (room.pieces.size() > best.pieces.size()) best = std::move(room);
   }
   for (std::size_t i = 0; i < best.pieces.size(); ++i) best.pieces[i].object.id = static_cast<int>(i);
+  for (Piece& piece : best.pieces) piece.idle = pieces > 2 && random.uniform() < 0.12;
   return best;
 }
 

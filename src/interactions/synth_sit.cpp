@@ -38,7 +38,7 @@ Posture sitting(Way way, const Body& body, const Piece& piece, const Piece* tabl
   if (way == Way::forward) recline = -random.uniform(0.35, 0.7);
   if (way == Way::at_table) recline = -random.uniform(0.12, 0.35);
   Posture p = seated(body, piece, plan, feet, recline);
-  hands_on_lap(p, body, piece, plan, random.uniform(0.55, 0.9), random.uniform(0.05, 0.16));
+  hands_on_lap(p, body, piece, plan, random.uniform(0.4, 0.7) - 0.6 * std::max(0.0, recline), random.uniform(0.05, 0.16));
   const double facing = piece.placement.angle;
   switch (way) {
     case Way::forward:
