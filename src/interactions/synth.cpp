@@ -28,6 +28,16 @@ Cast draw_cast(const Room& room, const SynthOptions& options, Random& random) {
   return cast;
 }
 
+/// Does the body rest on the object, or has it a hand there? Who is about to sit down has not touched the seat yet.
+bool touches(const Pose& pose, const Object& object) {
+  for (const Part& part : object.parts)
+    for (const Joint joint : {pelvis, right_wrist, left_wrist}) {
+      const Vec3 outside = (part.box.axes.transpose() * (pose.col(joint) - part.box.center)).cwiseAbs() - part.box.half_size;
+      if (outside.cwiseMax(0.0).norm() < 0.12) return true;
+    }
+  return false;
+}
+
 /// Poses at the frames, and which pieces are touched in them.
 void record(Recording& truth, const Cast& cast, const View& view, int frames) {
   std::set<int> touched;
@@ -39,12 +49,12 @@ void record(Recording& truth, const Cast& cast, const View& view, int frames) {
       const Moment moment = at_time(motion, f / truth.fps);
       figures.push_back({pose_of(body, moment.posture), body.trunk_radius, body.limb_radius});
       actions.push_back(moment.action);
-      touched.insert(moment.touched.begin(), moment.touched.end());
+      for (const int id : moment.touched)
+        if (id >= 0 && touches(figures.back().pose, truth.objects[static_cast<std::size_t>(id)])) touched.insert(id);
     }
     for (std::size_t p = 0; p < figures.size(); ++p)
       truth.people[p].push_back({f, figures[p].pose, hidden_joints(view.T_world_camera.translation, figures, p, truth.objects), actions[p], true});
   }
-  touched.erase(-1);
   truth.interacted.assign(touched.begin(), touched.end());
 }
 

@@ -17,6 +17,29 @@ struct Place {
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 
+/// Running means; ends stay.
+std::vector<double> averaged(const std::vector<double>& values, int radius) {
+  std::vector<double> sums = {0.0};
+  for (const double v : values) sums.push_back(sums.back() + v);
+  std::vector<double> result;
+  const int last = static_cast<int>(values.size()) - 1;
+  for (int i = 0; i <= last; ++i) {
+    const int r = std::min({radius, i, last - i});
+    result.push_back((sums[static_cast<std::size_t>(i + r + 1)] - sums[static_cast<std::size_t>(i - r)]) / (2 * r + 1));
+  }
+  return result;
+}
+
+/// Nobody turns a corner at once.
+void round_off(std::vector<Place>& places) {
+  for (const int axis : {0, 1}) {
+    std::vector<double> values;
+    for (const Place& p : places) values.push_back(p.at[axis]);
+    values = averaged(averaged(values, 9), 6);
+    for (std::size_t k = 0; k < places.size(); ++k) places[k].at[axis] = values[k];
+  }
+}
+
 /// Where the trunk is at each moment: slow where it turns, no faster than it can stop.
 std::vector<Place> stroll(const std::vector<Vec2>& path, double heading, double final_heading, const Manner& manner) {
   std::vector<double> length = {0.0};
@@ -44,9 +67,10 @@ std::vector<Place> stroll(const std::vector<Vec2>& path, double heading, double 
     speed += std::clamp(allowed - speed, -2.5 * kStep, acceleration * kStep);
     s = std::min(total, s + speed * kStep);
     places.push_back({point(s), heading, speed});
-    if (rest < 0.005 && std::abs(error) < 0.01 && std::abs(turning) < 0.05) break;
+    if (rest < 2e-4 && std::abs(error) < 1e-3 && std::abs(turning) < 0.01) break;
   }
-  places.push_back({path.back(), heading + wrapped(final_heading - heading), 0.0});
+  places.insert(places.end(), 16, {path.back(), heading + wrapped(final_heading - heading), 0.0});  // time to come to rest
+  round_off(places);
   return places;
 }
 
@@ -87,21 +111,10 @@ std::vector<std::array<Vec3, 2>> step(std::vector<Place>& places, const Body& bo
     feet[static_cast<std::size_t>(side)] = target;
     side = 1 - side;
   }
+  track.insert(track.end(), 20, feet);  // the weight settles
   while (places.size() < track.size()) places.push_back(places.back());
   while (track.size() < places.size()) track.push_back(feet);
   return track;
-}
-
-std::vector<double> averaged(const std::vector<double>& values, int radius) {
-  std::vector<double> sums = {0.0};
-  for (const double v : values) sums.push_back(sums.back() + v);
-  std::vector<double> result;
-  const int last = static_cast<int>(values.size()) - 1;
-  for (int i = 0; i <= last; ++i) {
-    const int r = std::min({radius, i, last - i});
-    result.push_back((sums[static_cast<std::size_t>(i + r + 1)] - sums[static_cast<std::size_t>(i - r)]) / (2 * r + 1));
-  }
-  return result;
 }
 
 /// As high as both legs allow, over every moment, so that the pelvis dips where steps are long.
