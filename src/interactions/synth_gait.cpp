@@ -59,8 +59,8 @@ std::vector<Place> stroll(const std::vector<Vec2>& path, double heading, double 
     const double wanted = arriving ? final_heading : std::atan2(-look.x(), look.y());
     const double error = wrapped(wanted - heading);
     // a turn speeds up and brakes softly
-    const double rate = std::clamp(3.5 * error, -2.4, 2.4) * manner.lively;
-    turning += std::clamp(rate - turning, -9.0 * kStep, 9.0 * kStep);
+    const double rate = std::clamp(4.5 * error, -2.4, 2.4) * manner.lively;
+    turning += std::clamp(rate - turning, -12.0 * kStep, 12.0 * kStep);
     heading += turning * kStep;
     const double free = arriving ? std::max(0.3, std::cos(error)) : std::max(0.05, std::cos(std::min(1.2 * std::abs(error), 0.5 * kPi)));
     const double allowed = std::min(manner.speed * free, std::sqrt(2.0 * 0.8 * acceleration * std::max(0.0, rest)));
@@ -91,7 +91,8 @@ std::vector<std::array<Vec3, 2>> step(std::vector<Place>& places, const Body& bo
     const auto frames = static_cast<std::size_t>(cadence * kRate);
     const Vec3 target = footprint(body, at(track.size() + frames + frames / 2), stagger, side), start = feet[static_cast<std::size_t>(side)];
     const double distance = (target - start).norm();
-    const bool ended = track.size() >= places.size();
+    const Place& here = at(track.size());
+    const bool ended = (here.at - places.back().at).norm() < 0.02 && std::abs(here.heading - places.back().heading) < 0.05;
     if (distance < (ended ? 0.02 : 0.05)) {  // stays
       if (ended) {
         ++idle;
@@ -111,9 +112,9 @@ std::vector<std::array<Vec3, 2>> step(std::vector<Place>& places, const Body& bo
     feet[static_cast<std::size_t>(side)] = target;
     side = 1 - side;
   }
-  track.insert(track.end(), 20, feet);  // the weight settles
+  track.insert(track.end(), 14, feet);  // the weight settles
   while (places.size() < track.size()) places.push_back(places.back());
-  while (track.size() < places.size()) track.push_back(feet);
+  places.resize(track.size());  // the rest is only standing
   return track;
 }
 
