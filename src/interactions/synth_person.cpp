@@ -65,7 +65,7 @@ bool perform(Motion& motion, const Visit& visit, const Room& room, const FloorPl
   }
   const bool table = piece.object.superclass() == Superclass::table, leans = visit.errand == Errand::lean;
   const Piece side = table ? from_side(piece, static_cast<int>(random.index(4))) : piece;
-  const double off = table ? random.uniform(0.2, 0.3) : random.uniform(0.36, 0.5);
+  const double off = table ? random.uniform(0.2, 0.3) : piece.height < 1.2 ? random.uniform(0.28, 0.4) : random.uniform(0.36, 0.5);
   if (!walk_to(motion, plan, body, manner, approach_to(side, random.uniform(-1.0, 1.0) * side.room, off, false))) return false;
   if (leans && side.surface > 0.6)
     lean(motion, body, manner, side, random.uniform(1.0, 4.0), random);
@@ -127,8 +127,8 @@ Motion live(const Room& room, const FloorPlan& plan, const Body& body, const std
   for (int attempt = 0; attempt < 60; ++attempt) {
     Motion motion = {{standing(body, free_place(plan, 0.4, random), random.uniform(-kPi, kPi)), Action::stand, {-1, -1}}};
     std::vector<int> used(room.pieces.size(), 0);
-    if (!possible(motion, 0, room, body, others)) continue;
     if (random.uniform() < 0.5) stand_about(motion, body, manner, random.uniform(0.5, 2.0), random);
+    if (!possible(motion, 0, room, body, others)) continue;
     for (int tries = 0; tries < 40 && motion.size() < length;) {
       const std::size_t mark = motion.size();
       manner.carrying = random.uniform() < 0.15 ? static_cast<int>(random.index(2)) : -1;
