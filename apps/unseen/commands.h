@@ -29,6 +29,7 @@ Command add_view(CLI::App& app);
 Command add_synth_planes(CLI::App& synth);
 Command add_synth_cuboids(CLI::App& synth);
 Command add_synth_collision(CLI::App& synth);
+Command add_synth_interactions(CLI::App& synth);
 Command add_evaluate_planes(CLI::App& evaluate);
 Command add_evaluate_cuboids(CLI::App& evaluate);
 Command add_evaluate_collision(CLI::App& evaluate);

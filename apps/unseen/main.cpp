@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
   const std::string command = shell_command({argv, argv + argc});
   const std::vector<Command> commands = {add_planes(app, command), add_cuboids(app, command),
                                          add_collision(app, command), add_stage(app), add_convert(app),
-                                         add_synth_planes(*synth), add_synth_cuboids(*synth), add_synth_collision(*synth),
+                                         add_synth_planes(*synth), add_synth_cuboids(*synth), add_synth_collision(*synth), add_synth_interactions(*synth),
                                          add_evaluate_planes(*evaluate), add_evaluate_cuboids(*evaluate), add_evaluate_collision(*evaluate),
                                          add_view(app)};
   try {

@@ -17,6 +17,7 @@ struct SynthOptions {
   double noise = 5;     ///< px, standard deviation of the joints
   int width = 1920, height = 1080;
   bool still = false;   ///< nobody touches anything
+  bool lifted = true;   ///< 3D poses come with the detections
   int seed = 1;
 };
 
