@@ -3,6 +3,7 @@
 #include "interactions/identities.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "interactions/identity_labels.h"
@@ -12,7 +13,7 @@ namespace unseen::interactions {
 namespace {
 
 constexpr double kMust = 1e7;     ///< what it would cost to leave out a detection that has a label
-constexpr int kMostBranches = 400;  ///< then the best found so far is taken
+constexpr double kMostWork = 3e6;  ///< links looked at while labels are brought together; then the best answer so far is taken
 
 /// What everybody does: the detections of each path, by frame.
 using Paths = std::vector<std::vector<int>>;
@@ -165,22 +166,63 @@ std::vector<int> match(const std::vector<People>& possible) {
   return path_of;
 }
 
-/// A detection to decide about: the middle one of those on paths that nobody (or nobody else) can be.
-int undecided(const Allowed& allowed, const Paths& paths, const std::vector<People>& possible) {
+/// A detection of which it is to be decided whether a person is there.
+struct Question {
+  int detection = -1, person = 0;
+};
+
+/// The slot-by-slot cost of letting a path go on as another one after its detection i: what both next steps then cost together.
+double swap_cost(const Model& model, const std::vector<int>& path, std::size_t i, const std::vector<int>& other) {
+  const std::vector<int>& slot = model.sightings.slot;
+  const auto next = std::find_if(other.begin(), other.end(), [&](int d) { return slot[static_cast<std::size_t>(d)] > slot[static_cast<std::size_t>(path[i])]; });
+  if (next == other.begin() || next == other.end()) return std::numeric_limits<double>::infinity();
+  const int before = *(next - 1);
+  if (slot[static_cast<std::size_t>(before)] >= slot[static_cast<std::size_t>(path[i + 1])]) return std::numeric_limits<double>::infinity();
+  return link_cost(model.take, model.sightings, path[i], *next) + link_cost(model.take, model.sightings, before, path[i + 1]);
+}
+
+/// Where a path that would be two people most likely goes over to another: the end of a step there that is open.
+Question question_of(const Model& model, const Allowed& allowed, const Paths& paths, const std::vector<int>& path) {
+  const auto who = [&](std::size_t i) { return allowed.detection[static_cast<std::size_t>(path[i])]; };
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t best = path.size();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (is_one(who(i)) && (i + 1 == path.size() || is_one(who(i + 1)))) continue;
+    if (best == path.size()) best = i;
+    if (i + 1 == path.size()) continue;
+    for (const std::vector<int>& other : paths)
+      if (const double cost = &other == &path ? least : swap_cost(model, path, i, other); cost < least) {
+        least = cost;
+        best = i;
+      }
+  }
+  if (best == path.size()) return {};
+  const bool later = is_one(who(best));  // the step's first end is known, so its second one is open
+  const std::size_t open = later ? best + 1 : best;
+  People expected = who(open);
+  if (later) {
+    for (std::size_t i = path.size() - 1; i > open; --i)
+      if (is_one(who(i)) && (who(i) & who(open))) expected = who(i);
+  } else {
+    for (std::size_t i = 0; i < open; ++i)
+      if (is_one(who(i)) && (who(i) & who(open))) expected = who(i);
+  }
+  return {path[open], std::countr_zero(expected)};
+}
+
+/// The question about a path that nobody can be; if there is none, about any path.
+Question question_of(const Model& model, const Allowed& allowed, const Paths& paths, const std::vector<People>& possible) {
   for (const bool impossible : {true, false})
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-      std::vector<int> open;
-      for (const int d : paths[i])
-        if (!is_one(allowed.detection[static_cast<std::size_t>(d)])) open.push_back(d);
-      if ((possible[i] == 0) == impossible && !open.empty()) return open[open.size() / 2];
-    }
-  return -1;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      if ((possible[i] == 0) == impossible)
+        if (const Question q = question_of(model, allowed, paths, paths[i]); q.detection >= 0) return q;
+  return {};
 }
 
 struct Search {
   double least = std::numeric_limits<double>::infinity();
   std::vector<int> best;  ///< person of each detection
-  int branches = 0;
+  double work = 0;
 };
 
 double total_cost(const Model& model, const Paths& paths) {
@@ -191,7 +233,10 @@ double total_cost(const Model& model, const Paths& paths) {
 
 /// Depth first: who must not be there comes last, for fixing somebody leads to an answer sooner.
 void search(const Model& model, const Allowed& allowed, Search& s) {
-  if (++s.branches > kMostBranches && !s.best.empty()) return;
+  std::size_t links = 0;
+  for (const std::vector<Link>& from : model.links) links += from.size();
+  s.work += static_cast<double>(links) + 1e4;
+  if (s.work > kMostWork && !s.best.empty()) return;
   const Paths paths = Network(model, allowed).cheapest();
   std::size_t known = 0, kept = 0;
   for (const std::vector<int>& slots : allowed.fixed) known += slots.size();
@@ -209,14 +254,11 @@ void search(const Model& model, const Allowed& allowed, Search& s) {
       for (const int d : paths[static_cast<std::size_t>(path_of[p])]) s.best[static_cast<std::size_t>(d)] = static_cast<int>(p);
     return;
   }
-  const int d = undecided(allowed, paths, possible);
-  if (d < 0) return;
-  const People options = allowed.detection[static_cast<std::size_t>(d)];
-  int first = 0;
-  while (!(options >> first & 1)) ++first;
-  search(model, with_fixed(allowed, model.sightings, d, first), s);
+  const Question question = question_of(model, allowed, paths, possible);
+  if (question.detection < 0) return;
+  search(model, with_fixed(allowed, model.sightings, question.detection, question.person), s);
   Allowed without = allowed;
-  without.detection[static_cast<std::size_t>(d)] &= ~(People{1} << first);
+  without.detection[static_cast<std::size_t>(question.detection)] &= ~(People{1} << question.person);
   search(model, without, s);
 }
 
