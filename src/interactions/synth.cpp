@@ -13,38 +13,48 @@
 namespace unseen::interactions {
 namespace {
 
-struct Cast {
-  std::vector<std::pair<Body, Motion>> people;
-};
+using Cast = std::vector<std::pair<Body, Motion>>;
 
+/// People one after the other, each among those before; fewer if there is no room for more.
 Cast draw_cast(const Room& room, const SynthOptions& options, Random& random) {
   const FloorPlan plan = plan_floor(room);
   Cast cast;
   for (int i = 0; i < options.people; ++i) {
     const Body body = draw_body(random);
-    Motion motion = live(room, plan, body, cast.people, options.seconds, options.still, random);
-    if (!motion.empty()) cast.people.emplace_back(body, std::move(motion));
+    Motion motion = live(room, plan, body, cast, options.seconds, options.still, random);
+    if (motion.empty()) break;
+    cast.emplace_back(body, std::move(motion));
   }
   return cast;
+}
+
+/// Does the body rest on the object, or has it a hand there? Who is about to sit down has not touched the seat yet.
+bool touches(const Pose& pose, const Object& object) {
+  for (const Part& part : object.parts)
+    for (const Joint joint : {pelvis, right_wrist, left_wrist}) {
+      const Vec3 outside = (part.box.axes.transpose() * (pose.col(joint) - part.box.center)).cwiseAbs() - part.box.half_size;
+      if (outside.cwiseMax(0.0).norm() < 0.12) return true;
+    }
+  return false;
 }
 
 /// Poses at the frames, and which pieces are touched in them.
 void record(Recording& truth, const Cast& cast, const View& view, int frames) {
   std::set<int> touched;
-  truth.people.resize(cast.people.size());
+  truth.people.resize(cast.size());
   for (int f = 0; f < frames; ++f) {
     std::vector<Figure> figures;
     std::vector<Action> actions;
-    for (const auto& [body, motion] : cast.people) {
+    for (const auto& [body, motion] : cast) {
       const Moment moment = at_time(motion, f / truth.fps);
       figures.push_back({pose_of(body, moment.posture), body.trunk_radius, body.limb_radius});
       actions.push_back(moment.action);
-      touched.insert(moment.touched.begin(), moment.touched.end());
+      for (const int id : moment.touched)
+        if (id >= 0 && touches(figures.back().pose, truth.objects[static_cast<std::size_t>(id)])) touched.insert(id);
     }
     for (std::size_t p = 0; p < figures.size(); ++p)
       truth.people[p].push_back({f, figures[p].pose, hidden_joints(view.T_world_camera.translation, figures, p, truth.objects), actions[p], true});
   }
-  touched.erase(-1);
   truth.interacted.assign(touched.begin(), touched.end());
 }
 
@@ -81,8 +91,12 @@ SynthTake simulate(const SynthOptions& options) {
 
   Random random(static_cast<std::uint64_t>(options.seed));
   const View view = draw_view(options.width, options.height, random);
-  const Room room = draw_room(view, options.objects, random);
-  const Cast cast = draw_cast(room, options, random);
+  Room room;
+  Cast cast;
+  for (int attempt = 0; attempt < 20 && static_cast<int>(cast.size()) < options.people; ++attempt) {
+    room = draw_room(view, options.objects, random);
+    cast = draw_cast(room, options, random);
+  }
 
   SynthTake synth;
   Recording& truth = synth.truth;

@@ -19,6 +19,12 @@ Vec3 middle_joint(const Vec3& root, Vec3& end, double upper, double lower, const
   return root + share * along + std::sqrt(std::max(0.0, upper * upper - share * share)) * across.normalized();
 }
 
+/// Where an elbow points, seen from the chest: back if the hand hangs, down and out the higher it is.
+Vec3 elbow_side(const Vec3& hand, int side) {
+  const double up = 0.5 + 0.5 * hand.z() / std::max(hand.norm(), 1e-6);
+  return {outward(side) * (0.4 + 0.5 * up), -0.9 + 0.6 * up, -0.2 - 0.8 * up};
+}
+
 }  // namespace
 
 Body draw_body(Random& random) {
@@ -80,7 +86,7 @@ Pose pose_of(const Body& body, const Posture& posture) {
     const Vec3 knee = middle_joint(hip, ankle, body.thigh, body.shank, posture.hips * Vec3(0.12 * outward(side), 1.0, 0.15));
     const Vec3 shoulder = shoulder_of(body, posture, side);
     Vec3 wrist = posture.hands[side];
-    const Vec3 elbow = middle_joint(shoulder, wrist, body.upper_arm, body.forearm, posture.chest * Vec3(0.45 * outward(side), -0.75, -0.5));
+    const Vec3 elbow = middle_joint(shoulder, wrist, body.upper_arm, body.forearm, posture.chest * elbow_side(posture.chest.inverse() * (wrist - shoulder), side));
     const Vec3 leg[] = {hip, knee, ankle}, arm[] = {shoulder, elbow, wrist};
     for (int k = 0; k < 3; ++k) {
       pose.col(legs[side][k]) = leg[k];

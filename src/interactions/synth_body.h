@@ -15,6 +15,9 @@ using Turn = Eigen::Quaterniond;
 enum Side { kRight, kLeft };
 inline double outward(int side) { return side == kRight ? 1.0 : -1.0; }
 
+/// Share of a leg's length over which it is stretched at most: knees are never quite straight.
+inline constexpr double kStraight = 0.993;
+
 /// Lengths between the centres of a person's joints, m. Shares of the height are those of Drillis and Contini (1966), as in Winter,
 /// Biomechanics and Motor Control of Human Movement, with breadths between joint centres instead of over the skin.
 struct Body {
@@ -26,7 +29,7 @@ struct Body {
 
   double leg() const { return shank + thigh; }
   double arm() const { return upper_arm + forearm; }
-  double standing() const { return ankle + 0.985 * leg(); }  ///< of the pelvis; knees are never quite straight
+  double standing() const { return ankle + kStraight * leg(); }  ///< height of the pelvis
 };
 Body draw_body(Random& random);
 

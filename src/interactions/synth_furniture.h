@@ -19,6 +19,7 @@ struct Piece {
   double room = 0;      ///< half the width in which one can sit or stand before it
   bool soft = false, rest = false;  ///< upholstered; with a backrest
   std::vector<std::array<double, 2>> levels;  ///< of a shelf: lowest and highest point of each compartment, m
+  bool idle = false;    ///< nobody uses it, it stands by
   int table = -1;       ///< index of the table or desk that one sits at here
 };
 

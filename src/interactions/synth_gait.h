@@ -29,6 +29,7 @@ struct Manner {
   double stoop = 0.05;     ///< of the trunk, rad
   double lively = 1.0;     ///< faster and wider if more
   double phase = 0;        ///< of swaying, rad
+  int carrying = -1;       ///< the side of a hand that holds something before the chest; −1: none
 };
 Manner draw_manner(Random& random);
 

@@ -19,7 +19,8 @@ Visit draw_visit(const Room& room, const std::vector<int>& used, bool still, Ran
   if (still || room.pieces.empty() || random.uniform() < 0.12) return {};
   std::vector<double> weights;
   double sum = 0;
-  for (std::size_t i = 0; i < room.pieces.size(); ++i) weights.push_back(sum += 1.0 / (1.0 + 3.0 * used[i]));
+  for (std::size_t i = 0; i < room.pieces.size(); ++i) weights.push_back(sum += room.pieces[i].idle ? 0.0 : 1.0 / (1.0 + 3.0 * used[i]));
+  if (sum == 0) return {};
   const double pick = random.uniform(0.0, sum);
   const int piece = static_cast<int>(std::upper_bound(weights.begin(), weights.end() - 1, pick) - weights.begin());
   const std::string& category = room.pieces[static_cast<std::size_t>(piece)].object.category;
@@ -64,7 +65,7 @@ bool perform(Motion& motion, const Visit& visit, const Room& room, const FloorPl
   }
   const bool table = piece.object.superclass() == Superclass::table, leans = visit.errand == Errand::lean;
   const Piece side = table ? from_side(piece, static_cast<int>(random.index(4))) : piece;
-  const double off = table ? random.uniform(0.2, 0.3) : random.uniform(0.36, 0.5);
+  const double off = table ? random.uniform(0.2, 0.3) : piece.height < 1.2 ? random.uniform(0.28, 0.4) : random.uniform(0.36, 0.5);
   if (!walk_to(motion, plan, body, manner, approach_to(side, random.uniform(-1.0, 1.0) * side.room, off, false))) return false;
   if (leans && side.surface > 0.6)
     lean(motion, body, manner, side, random.uniform(1.0, 4.0), random);
@@ -120,17 +121,17 @@ void count_use(const Motion& motion, std::size_t first, std::vector<int>& used) 
 
 Motion live(const Room& room, const FloorPlan& plan, const Body& body, const std::vector<std::pair<Body, Motion>>& others, double seconds, bool still,
             Random& random) {
-  const Manner manner = draw_manner(random);
+  Manner manner = draw_manner(random);
   const auto length = static_cast<std::size_t>(std::ceil(seconds * kRate)) + 1;
-  Motion best;
   // a start may turn out to be a dead end, e.g. where another person will come by; then another one is tried
-  for (int attempt = 0; attempt < 60 && best.size() < length; ++attempt) {
+  for (int attempt = 0; attempt < 60; ++attempt) {
     Motion motion = {{standing(body, free_place(plan, 0.4, random), random.uniform(-kPi, kPi)), Action::stand, {-1, -1}}};
     std::vector<int> used(room.pieces.size(), 0);
-    if (!possible(motion, 0, room, body, others)) continue;
     if (random.uniform() < 0.5) stand_about(motion, body, manner, random.uniform(0.5, 2.0), random);
+    if (!possible(motion, 0, room, body, others)) continue;
     for (int tries = 0; tries < 40 && motion.size() < length;) {
       const std::size_t mark = motion.size();
+      manner.carrying = random.uniform() < 0.15 ? static_cast<int>(random.index(2)) : -1;
       const bool done = perform(motion, draw_visit(room, used, still, random), room, plan, body, manner, random);
       if (done && possible(motion, mark, room, body, others)) {
         count_use(motion, mark, used);
@@ -141,9 +142,9 @@ Motion live(const Room& room, const FloorPlan& plan, const Body& body, const std
       if (++tries % 8 == 0) hold(motion, 1.0, manner, Action::stand);
       if (!possible(motion, mark, room, body, others)) break;
     }
-    if (motion.size() > best.size()) best = std::move(motion);
+    if (motion.size() >= length) return motion;
   }
-  return best;
+  return {};
 }
 
 Moment at_time(const Motion& motion, double time) {

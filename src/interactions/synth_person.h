@@ -8,7 +8,7 @@
 namespace unseen::interactions {
 
 /// What a person does for so many seconds in a room with others, whose motions are fixed: walks, sits, reaches, leans, lies and stands about,
-/// or, `still`, only walks and stands about.
+/// or, `still`, only walks and stands about. Empty if others leave no way to do so.
 Motion live(const Room& room, const FloorPlan& plan, const Body& body, const std::vector<std::pair<Body, Motion>>& others, double seconds, bool still,
             Random& random);
 

@@ -17,11 +17,11 @@ Posture reaching(const Body& body, const Posture& stand, const Targets& targets)
   double lowest = 2.0;
   for (const auto& t : targets)
     if (t) lowest = std::min(lowest, t->z());
-  const double squat = std::clamp(0.9 - lowest, 0.0, 0.5);
+  const double squat = std::clamp(0.75 * (0.9 - lowest), 0.0, 0.4);
   Posture p = stand;
   for (double effort = 0; effort <= 1.0; effort += 0.02) {
-    const double bend = (lowest > 1.25 ? 0.4 : 1.15) * effort, twist = both ? 0.0 : (targets[kRight] ? 0.5 : -0.5) * std::min(1.0, 1.5 * effort);
-    p.pelvis = stand.pelvis + ahead(facing) * (0.06 * effort - 0.28 * body.trunk * std::sin(bend)) - Vec3(0, 0, squat * effort * 0.9);
+    const double bend = (lowest > 1.25 ? 0.4 : 1.3) * effort, twist = both ? 0.0 : (targets[kRight] ? 0.5 : -0.5) * std::min(1.0, 1.5 * effort);
+    p.pelvis = stand.pelvis + ahead(facing) * (0.06 * effort - 0.28 * body.trunk * std::sin(bend)) - Vec3(0, 0, squat * effort);
     p.hips = about_z(facing + 0.3 * twist) * about_x(-0.4 * bend);
     p.chest = about_z(facing + twist) * about_x(-bend);
     bool there = true;
@@ -44,28 +44,43 @@ Vec3 target_at(const Piece& piece, double right, double inside, double height) {
   return piece.placement * Vec3(std::clamp(-right, -most, most), piece.edge - inside, height);
 }
 
+/// Somewhere in a compartment or on top, with one hand or both.
+Targets draw_targets(const Piece& piece, const Body& body, const Posture& base, Random& random) {
+  double height = piece.surface + random.uniform(0.04, 0.12), inside = random.uniform(0.1, 0.3);
+  if (piece.object.superclass() == Superclass::shelf) {
+    const auto& level = piece.levels[random.index(piece.levels.size())];
+    const bool on_top = piece.height < 1.2 && random.uniform() < 0.4;
+    height = on_top ? piece.height + 0.06 : std::min(level[0] + random.uniform(0.08, 0.2), 1.12 * body.height);
+    inside = on_top ? random.uniform(0.05, 0.15) : -random.uniform(0.02, 0.08);
+  }
+  const bool both = random.uniform() < 0.3;
+  const int one = random.uniform() < 0.65 ? kRight : kLeft;
+  const double middle = -(piece.placement.inverse() * base.pelvis).x();
+  Targets targets;
+  for (const int side : {kRight, kLeft})
+    if (both || side == one) targets[side] = target_at(piece, middle + outward(side) * (both ? 0.14 : random.uniform(0.0, 0.28)), inside, height);
+  return targets;
+}
+
+bool arrives(const Body& body, const Posture& posture, const Targets& targets) {
+  for (const int side : {kRight, kLeft})
+    if (targets[side] && (shoulder_of(body, posture, side) - *targets[side]).norm() > 0.99 * body.arm()) return false;
+  return true;
+}
+
 }  // namespace
 
 void reach(Motion& motion, const Body& body, const Manner& manner, const Piece& piece, Random& random) {
-  const bool shelf = piece.object.superclass() == Superclass::shelf;
   const std::array<int, 2> touched = {-1, piece.object.id};
   const Posture base = motion.back().posture;
-  const double middle = -(piece.placement.inverse() * base.pelvis).x();
   for (int left = 1 + static_cast<int>(random.index(3)); left > 0; --left) {
-    double height = piece.surface + random.uniform(0.04, 0.12), inside = random.uniform(0.1, 0.3);
-    if (shelf) {
-      const auto& level = piece.levels[random.index(piece.levels.size())];
-      const bool on_top = piece.height < 1.2 && random.uniform() < 0.4;
-      height = on_top ? piece.height + 0.06 : std::min(level[0] + random.uniform(0.08, 0.2), 1.12 * body.height);
-      inside = on_top ? random.uniform(0.05, 0.15) : -random.uniform(0.02, 0.08);
+    Targets targets = draw_targets(piece, body, base, random);
+    Posture there = reaching(body, base, targets);
+    for (int attempt = 0; attempt < 20 && !arrives(body, there, targets); ++attempt) {
+      targets = draw_targets(piece, body, base, random);
+      there = reaching(body, base, targets);
     }
-    const bool both = random.uniform() < 0.3;
-    const int one = random.uniform() < 0.65 ? kRight : kLeft;
-    Targets targets;
-    for (const int side : {kRight, kLeft})
-      if (both || side == one)
-        targets[side] = target_at(piece, middle + outward(side) * (both ? 0.14 : random.uniform(0.0, 0.28)), inside, height);
-    const Posture there = reaching(body, base, targets);
+    if (!arrives(body, there, targets)) continue;
     const double time = random.uniform(0.8, 1.4) / manner.lively;
     move_to(motion, there, {time, Action::reach, touched});
     hold(motion, random.uniform(0.4, 2.2), manner, Action::reach, touched);

@@ -116,7 +116,7 @@ void add_group(Room& room, int most, Random& random) {
 
 View draw_view(int width, int height, Random& random) {
   View v;
-  const double focal = 0.5 * width / std::tan(0.5 * radians(random.uniform(54.0, 68.0)));
+  const double focal = 0.5 * width / std::tan(0.5 * radians(random.uniform(50.0, 64.0)));
   v.camera = {focal, focal, 0.5 * (width - 1), 0.5 * (height - 1), width, height};
   const double up = random.uniform(0.8, 1.8);
   // aimed at the middle of people some 5 m away, by hand
@@ -137,18 +137,46 @@ double ground_distance(const Piece& piece, const Vec2& p) {
   return (own.head<2>().cwiseAbs() - piece.half).cwiseMax(0.0).norm();
 }
 
+namespace {
+
+/// How much pieces stand before each other as the camera sees them: shares of the width of the farther one.
+double hiding(const Room& room) {
+  std::vector<std::array<double, 3>> spans;  // azimuth from, to, and distance
+  for (const Piece& piece : room.pieces) {
+    std::array<double, 3> span = {kPi, -kPi, piece.placement.position.norm()};
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0}) {
+        const Vec3 corner = piece.placement * Vec3(x * piece.half.x(), y * piece.half.y(), 0);
+        const double azimuth = std::atan2(corner.x(), corner.y());
+        span = {std::min(span[0], azimuth), std::max(span[1], azimuth), span[2]};
+      }
+    spans.push_back(span);
+  }
+  double sum = 0;
+  for (const auto& near : spans)
+    for (const auto& far : spans)
+      if (near[2] < far[2]) sum += std::max(0.0, std::min(near[1], far[1]) - std::max(near[0], far[0])) / (far[1] - far[0]);
+  return sum;
+}
+
+}  // namespace
+
 Room draw_room(const View& view, int pieces, Random& random) {
   Room best;
-  for (int attempt = 0; attempt < 40 && static_cast<int>(best.pieces.size()) < pieces; ++attempt) {
+  int complete = 0;
+  for (int attempt = 0; attempt < 40 && complete < 3; ++attempt) {
     Room room;
     const double grow = 0.25 * std::max(0, pieces - 3) + 0.1 * attempt / 4, width = random.uniform(4.0, 5.5) + grow;
     room.floor = {-0.5 * width, 0.5 * width, random.uniform(2.4, 3.0), 0, 0.92 * 0.5 * view.camera.width / view.camera.fx};
     room.floor.far = room.floor.near + random.uniform(3.2, 4.5) + grow;
     for (int g = 0; g < 4 * pieces && static_cast<int>(room.pieces.size()) < pieces; ++g)
       add_group(room, pieces - static_cast<int>(room.pieces.size()), random);
-    if (room.pieces.size() > best.pieces.size()) best = std::move(room);
+    complete += static_cast<int>(room.pieces.size()) == pieces;
+    const auto order = [](const Room& r) { return std::pair(r.pieces.size(), hiding(r)); };
+    if (order(room) > order(best)) best = std::move(room);
   }
   for (std::size_t i = 0; i < best.pieces.size(); ++i) best.pieces[i].object.id = static_cast<int>(i);
+  for (Piece& piece : best.pieces) piece.idle = pieces > 2 && random.uniform() < 0.12;
   return best;
 }
 

@@ -38,15 +38,17 @@ Posture sitting(Way way, const Body& body, const Piece& piece, const Piece* tabl
   if (way == Way::forward) recline = -random.uniform(0.35, 0.7);
   if (way == Way::at_table) recline = -random.uniform(0.12, 0.35);
   Posture p = seated(body, piece, plan, feet, recline);
-  hands_on_lap(p, body, piece, plan, random.uniform(0.55, 0.9), random.uniform(0.05, 0.16));
+  hands_on_lap(p, body, piece, plan, random.uniform(0.4, 0.7) - 0.6 * std::max(0.0, recline), random.uniform(0.05, 0.16));
   const double facing = piece.placement.angle;
   switch (way) {
     case Way::forward:
       hands_on_lap(p, body, piece, plan, 1.1, 0.06);
       break;
     case Way::stretched:
-      for (const int side : {kRight, kLeft})
-        p.feet[side] = from_edge(piece, plan, outward(side) * random.uniform(0.05, 0.15), std::min(body.leg() * 0.93 - plan.into, plan.off + 0.35), body.ankle);
+      for (const int side : {kRight, kLeft}) {
+        const double down = p.pelvis.z() - body.ankle, far = std::sqrt(std::pow(random.uniform(0.88, 0.94) * body.leg(), 2) - down * down) - plan.into;
+        p.feet[side] = from_edge(piece, plan, outward(side) * random.uniform(0.05, 0.15), std::min(far, plan.off + 0.35), body.ankle);
+      }
       break;
     case Way::crossed: {
       const int over = random.uniform() < 0.5 ? kRight : kLeft;
@@ -63,6 +65,7 @@ Posture sitting(Way way, const Body& body, const Piece& piece, const Piece* tabl
     case Way::at_table: case Way::to_table: {
       const bool both = way == Way::at_table;
       const int one = random.uniform() < 0.7 ? kRight : kLeft;
+      if (!both) hands_on_lap(p, body, piece, plan, 1.0, 0.14);
       const double y = (table->placement.inverse() * p.pelvis).y() > 0 ? table->half.y() : -table->half.y();
       const double inner = y > 0 ? -1.0 : 1.0;
       for (const int side : {kRight, kLeft}) {
@@ -96,7 +99,7 @@ SitPlan plan_sit(const Piece& piece, const Body& body, Random& random) {
 
 Posture seated(const Body& body, const Piece& piece, const SitPlan& plan, const std::array<Vec3, 2>& feet, double recline) {
   Posture p;
-  p.pelvis = from_edge(piece, plan, 0, -plan.into, piece.surface + (piece.soft ? 0.07 : 0.10));  // hip joints above the skin
+  p.pelvis = from_edge(piece, plan, 0, -plan.into, piece.surface + (piece.soft ? 0.053 : 0.064) * body.height);  // hip joints above the skin
   const double facing = piece.placement.angle;
   p.hips = about_z(facing) * about_x(0.15);
   p.chest = about_z(facing) * about_x(recline);
@@ -113,6 +116,7 @@ void sit_down(Motion& motion, const Posture& seat, const Manner& manner, int pie
 void stand_up(Motion& motion, const Body& body, const Posture& seat, const Approach& approach, const Manner& manner, int piece) {
   Posture ready = seat;
   ready.chest = ready.chest * about_x(-0.3);
+  for (Vec3& hand : ready.hands) hand += 0.13 * ahead(approach.heading);  // to the knees
   move_to(motion, ready, {0.6 / manner.lively, Action::stand_up, {piece, -1}});
   Posture up = standing(body, approach.at, approach.heading);
   up.feet = seat.feet;
