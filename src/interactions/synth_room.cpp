@@ -55,7 +55,7 @@ bool at_wall(Kind kind, Random& random) {
 
 /// A desk at a wall has its chair in front, so it fits only with the place for it.
 bool add_piece(Room& room, Kind kind, Random& random) {
-  for (int attempt = 0; attempt < 60; ++attempt) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
     Piece piece = draw_piece(kind, random);
     const bool wall = at_wall(kind, random);
     piece = placed(piece, draw_placement(room.floor, piece, wall, random));
@@ -100,7 +100,7 @@ bool add_coffee_table(Room& room, int couch, Random& random) {
 /// One piece, or several that belong together; never more than `most`.
 void add_group(Room& room, int most, Random& random) {
   constexpr Kind kinds[] = {Kind::couch, Kind::couch, Kind::armchair, Kind::desk, Kind::desk, Kind::dining_table, Kind::dining_table,
-                            Kind::shelf, Kind::shelf, Kind::shelf, Kind::sideboard, Kind::bed, Kind::bed, Kind::stool, Kind::stool,
+                            Kind::shelf, Kind::shelf, Kind::shelf, Kind::sideboard, Kind::bed, Kind::bed, Kind::bed, Kind::bed, Kind::bed, Kind::stool, Kind::stool,
                             Kind::chair, Kind::chair, Kind::coffee_table};
   const Kind kind = kinds[random.index(std::size(kinds))];
   const int index = static_cast<int>(room.pieces.size());

@@ -132,7 +132,7 @@ void sit(Motion& motion, const Body& body, const Manner& manner, const Piece& pi
     const Way way = draw_way(piece, table, random);
     const bool at_table = way == Way::at_table || way == Way::to_table;
     const std::array<int, 2> touched = {id, at_table ? table->object.id : -1};
-    const double change = random.uniform(0.8, 1.5) / manner.lively, still = std::min(left, random.uniform(1.0, 5.0));
+    const double change = random.uniform(0.8, 1.5) / manner.lively, still = std::min(left, random.uniform(0.6, 4.0));
     move_to(motion, sitting(way, body, piece, table, plan, feet, random), {change, Action::sit, touched});
     hold(motion, still, manner, Action::sit, touched);
     left -= change + still;
