@@ -49,6 +49,8 @@ Vec2 free_place(const FloorPlan& plan, double clearance, Random& random) {
   return place;
 }
 
+const Piece* table_at(const Room& room, const Piece& seat) { return seat.table >= 0 ? &room.pieces[static_cast<std::size_t>(seat.table)] : nullptr; }
+
 /// Goes there and does it; false if there is no way.
 bool perform(Motion& motion, const Visit& visit, const Room& room, const FloorPlan& plan, const Body& body, const Manner& manner, Random& random) {
   if (visit.errand == Errand::wander) {
@@ -63,7 +65,7 @@ bool perform(Motion& motion, const Visit& visit, const Room& room, const FloorPl
     if (visit.errand == Errand::lie)
       lie(motion, body, manner, piece, sitting, random.uniform(2.0, 7.0), random);
     else
-      sit(motion, body, manner, piece, piece.table >= 0 ? &room.pieces[static_cast<std::size_t>(piece.table)] : nullptr, sitting, random.uniform(2.5, 10.0), random);
+      sit(motion, body, manner, piece, table_at(room, piece), sitting, random.uniform(2.5, 10.0), random);
     return true;
   }
   const bool table = piece.object.superclass() == Superclass::table, leans = visit.errand == Errand::lean;
@@ -128,7 +130,8 @@ Motion live(const Room& room, const FloorPlan& plan, const Body& body, const std
   const auto length = static_cast<std::size_t>(std::ceil(seconds * kRate)) + 1;
   // a start may turn out to be a dead end, e.g. where another person will come by; then another one is tried
   for (int attempt = 0; attempt < 60; ++attempt) {
-    Motion motion = {{standing(body, free_place(plan, 0.4, random), random.uniform(-kPi, kPi)), Action::stand, {-1, -1}}};
+    const Approach start{free_place(plan, 0.4, random), random.uniform(-kPi, kPi)};
+    Motion motion = {{standing(body, start.at, start.heading), Action::stand, {-1, -1}}};
     std::vector<int> used(room.pieces.size(), 0);
     if (random.uniform() < 0.5) stand_about(motion, body, manner, random.uniform(0.5, 2.0), random);
     if (!possible(motion, 0, room, body, others)) continue;

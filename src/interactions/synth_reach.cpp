@@ -118,7 +118,8 @@ void lean(Motion& motion, const Body& body, const Manner& manner, const Piece& t
   for (const int side : {kRight, kLeft}) targets[side] = target_at(table, middle + outward(side) * wide, inside, table.surface + 0.05);
   Posture there = reaching(body, base, targets);
   there.chest = there.chest * about_x(-random.uniform(0.05, 0.2));
-  there.head = about_z(heading(base.hips) + random.uniform(-0.6, 0.6)) * about_x(random.uniform(-0.5, 0.0));
+  there.head = about_z(heading(base.hips) + random.uniform(-0.6, 0.6));
+  there.head = there.head * about_x(random.uniform(-0.5, 0.0));
   move_to(motion, there, {random.uniform(0.9, 1.4) / manner.lively, Action::reach, touched});
   hold(motion, seconds, manner, Action::reach, touched);
   move_to(motion, base, {random.uniform(0.8, 1.2) / manner.lively, Action::reach, touched});

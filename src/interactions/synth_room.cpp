@@ -112,6 +112,26 @@ void add_group(Room& room, int most, Random& random) {
   if ((kind == Kind::couch || kind == Kind::armchair) && chance < 0.45) add_coffee_table(room, index, random);
 }
 
+/// How much pieces stand before each other as the camera sees them: shares of the width of the farther one.
+double hiding(const Room& room) {
+  std::vector<std::array<double, 3>> spans;  // azimuth from, to, and distance
+  for (const Piece& piece : room.pieces) {
+    std::array<double, 3> span = {kPi, -kPi, piece.placement.position.norm()};
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0}) {
+        const Vec3 corner = piece.placement * Vec3(x * piece.half.x(), y * piece.half.y(), 0);
+        const double azimuth = std::atan2(corner.x(), corner.y());
+        span = {std::min(span[0], azimuth), std::max(span[1], azimuth), span[2]};
+      }
+    spans.push_back(span);
+  }
+  double sum = 0;
+  for (const auto& near : spans)
+    for (const auto& far : spans)
+      if (near[2] < far[2]) sum += std::max(0.0, std::min(near[1], far[1]) - std::max(near[0], far[0])) / (far[1] - far[0]);
+  return sum;
+}
+
 }  // namespace
 
 View draw_view(int width, int height, Random& random) {
@@ -136,30 +156,6 @@ double ground_distance(const Piece& piece, const Vec2& p) {
   const Vec3 own = piece.placement.inverse() * Vec3(p.x(), p.y(), 0);
   return (own.head<2>().cwiseAbs() - piece.half).cwiseMax(0.0).norm();
 }
-
-namespace {
-
-/// How much pieces stand before each other as the camera sees them: shares of the width of the farther one.
-double hiding(const Room& room) {
-  std::vector<std::array<double, 3>> spans;  // azimuth from, to, and distance
-  for (const Piece& piece : room.pieces) {
-    std::array<double, 3> span = {kPi, -kPi, piece.placement.position.norm()};
-    for (const double x : {-1.0, 1.0})
-      for (const double y : {-1.0, 1.0}) {
-        const Vec3 corner = piece.placement * Vec3(x * piece.half.x(), y * piece.half.y(), 0);
-        const double azimuth = std::atan2(corner.x(), corner.y());
-        span = {std::min(span[0], azimuth), std::max(span[1], azimuth), span[2]};
-      }
-    spans.push_back(span);
-  }
-  double sum = 0;
-  for (const auto& near : spans)
-    for (const auto& far : spans)
-      if (near[2] < far[2]) sum += std::max(0.0, std::min(near[1], far[1]) - std::max(near[0], far[0])) / (far[1] - far[0]);
-  return sum;
-}
-
-}  // namespace
 
 Room draw_room(const View& view, int pieces, Random& random) {
   Room best;
