@@ -18,7 +18,7 @@ namespace unseen::report {
 std::string interactions_scene(const interactions::Reconstruction& reconstruction, const InputRecord& input, const OptionTable& options,
                                const std::string& command, const std::vector<interactions::Take>& takes);
 
-/// "Interactions of take.json"
+/// "Interactions of lounge.json"; of a take.json its folder is named.
 std::string interactions_title(const InputRecord& input);
 
 }  // namespace unseen::report
