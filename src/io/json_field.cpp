@@ -53,8 +53,13 @@ bool JsonField::has(const std::string& key) const {
   return value_->is_object() && value_->contains(key);
 }
 
-std::vector<JsonField> JsonField::list() const {
+std::size_t JsonField::size() const {
   if (!value_->is_array()) fail("an array");
+  return value_->size();
+}
+
+std::vector<JsonField> JsonField::list(std::size_t most) const {
+  if (size() > most) fail(fmt::format("at most {} entries", most));  // before a huge one is taken apart
   std::vector<JsonField> fields;
   for (std::size_t i = 0; i < value_->size(); ++i)
     fields.emplace_back((*value_)[i], source_, fmt::format("{}[{}]", path_, i));

@@ -40,8 +40,12 @@ class JsonField {
   bool is_null() const { return value_->is_null(); }
   bool is_array() const { return value_->is_array(); }
   bool is_object() const { return value_->is_object(); }
-  /// The entries of an array.
-  std::vector<JsonField> list() const;
+  bool is_number() const { return value_->is_number(); }
+  bool is_text() const { return value_->is_string(); }
+  /// The number of entries of an array.
+  std::size_t size() const;
+  /// The entries of an array of at most `most`.
+  std::vector<JsonField> list(std::size_t most = std::numeric_limits<std::size_t>::max()) const;
   /// The members of an object, in the file's order of names.
   std::vector<std::pair<std::string, JsonField>> members() const;
 

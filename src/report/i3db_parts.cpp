@@ -22,12 +22,12 @@ constexpr double kFarthest = 1e6;                                  // m or px
 
 /// [x, y, z] or [[x], [y], [z]].
 Vec3 column(const JsonField& json) {
-  const auto rows = json.list();
+  const auto rows = json.list(3);
   if (rows.size() != 3) json.fail("three numbers");
   Vec3 v;
   for (int i = 0; i < 3; ++i) {
     JsonField row = rows[static_cast<std::size_t>(i)];
-    if (const auto inner = row.is_array() ? row.list() : std::vector<JsonField>{}; inner.size() == 1) row = inner.front();
+    if (const auto inner = row.is_array() ? row.list(1) : std::vector<JsonField>{}; inner.size() == 1) row = inner.front();
     v[i] = row.number(-kFarthest, kFarthest);
   }
   return v;
@@ -35,7 +35,7 @@ Vec3 column(const JsonField& json) {
 
 /// Columns of the file are the box's axes; files hold them in single precision, so they are made orthonormal.
 Mat3 read_axes(const JsonField& json) {
-  const auto rows = json.list();
+  const auto rows = json.list(3);
   if (rows.size() != 3) json.fail("three rows");
   Mat3 axes;
   for (int r = 0; r < 3; ++r) axes.row(r) = rows[static_cast<std::size_t>(r)].vector();
@@ -102,7 +102,7 @@ std::map<int, Pose> read_i3db_poses(const JsonField& json) {
 
 std::map<int, PerJoint> read_i3db_values(const JsonField& json) {
   std::map<int, PerJoint> all;
-  const auto frames = json["frame_ids"].list(), values = json["values"].list();
+  const auto frames = json["frame_ids"].list(kMostFrames), values = json["values"].list(kMostFrames);
   if (frames.size() != values.size()) json["values"].fail(fmt::format("{}, one a frame", frames.size()));
   for (std::size_t i = 0; i < frames.size(); ++i) {
     PerJoint joints = PerJoint::Constant(std::numeric_limits<double>::quiet_NaN());

@@ -16,7 +16,7 @@ namespace unseen::report {
 using io::JsonField;
 
 /// The most that one JSON file of joints may hold, and the most frames that a recording may have.
-inline constexpr std::size_t kLargestJoints = std::size_t{256} << 20, kMostFrames = 10'000'000;
+inline constexpr std::size_t kLargestJoints = std::size_t{128} << 20, kMostFrames = 10'000'000;
 
 /// A JSON file of at most `kLargestJoints` bytes. Throws InputError, `expected` in its message.
 nlohmann::json parse_joint_file(const std::filesystem::path& path, const std::string& expected);

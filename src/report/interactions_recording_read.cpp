@@ -53,7 +53,7 @@ std::map<int, std::array<bool, kJoints>> read_occluded(const JsonField& json) {
   for (const auto& [key, field] : json.members()) {
     std::size_t frame = 0;
     if (!io::to_count(key, frame) || frame >= kMostFrames) field.fail("the number of a frame");
-    const auto flags = field.list();
+    const auto flags = field.list(kJoints);
     if (flags.size() != kJoints) field.fail(fmt::format("{} flags", kJoints));
     std::array<bool, kJoints>& joints = all[static_cast<int>(frame)];
     for (std::size_t j = 0; j < kJoints; ++j) joints[j] = flags[j].index(2) == 1;

@@ -7,6 +7,7 @@
 
 #include "unseen/interactions/evaluate.h"
 #include "unseen/report/interactions_recording.h"
+#include "unseen/report/interactions_take.h"
 
 namespace unseen::report {
 namespace {
@@ -140,6 +141,27 @@ TEST(RealScenes, SeatedPelvisesAreAboveASeat) {
   }
   EXPECT_GT(seated, 100);
   EXPECT_GT(above, 0.9 * seated);
+}
+
+/// Truth, projected, lies near the detections of the same frame: focal lengths, scale and frame numbers belong together.
+TEST(RealScenes, TakesSeeTheTruth) {
+  if (!has_data()) GTEST_SKIP() << "shared/data/interactions is not here";
+  const int frames[] = {120, 224, 355, 540}, lifted[] = {77, 223, 354, 539};
+  for (std::size_t s = 0; s < std::size(kScenes); ++s) {
+    const Take take = read_take(kData / kScenes[s].name / "take.json");
+    EXPECT_TRUE(take.remarks.empty()) << take.remarks[0];
+    EXPECT_EQ(take.detections.size(), static_cast<std::size_t>(frames[s]));
+    EXPECT_EQ(std::count_if(take.detections.begin(), take.detections.end(), [](const Detection& d) { return d.local.has_value(); }), lifted[s]);
+    const Recording truth = read_recording(kData / kScenes[s].name);
+    const RigidTransform T = truth.T_world_camera.inverse();
+    std::vector<double> off;
+    for (const Detection& d : take.detections)
+      for (const RecordedFrame& f : truth.people[0])
+        if (f.frame == d.frame)
+          for (const Joint j : {right_shoulder, left_shoulder, right_hip, left_hip}) off.push_back((take.camera.project(T * f.pose.col(j)) - d.pixels.col(j)).norm());
+    std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+    EXPECT_LT(off[off.size() / 2], 35.0) << kScenes[s].name;
+  }
 }
 
 }  // namespace
