@@ -234,7 +234,7 @@ void add_likelihood_chart(SceneBuilder& scene, const Reconstruction& r) {
     for (std::size_t i = 0; i < r.objects.size(); ++i)
       if (std::count(r.objects[i].windows.begin(), r.objects[i].windows.end(), static_cast<int>(w)) > 0) {
         proves.push_back(i);
-        name += (name.empty() ? "" : ", ") + name_of(r.objects[i]);
+        name += fmt::format("{}{}", name.empty() ? "" : ", ", name_of(r.objects[i]));
       }
     const auto person = std::find_if(r.people.begin(), r.people.end(), [&](const Person& p) { return p.id == window.person; });
     Json span = {{"from", number(window.first / r.fps)}, {"to", number((window.last + 1) / r.fps)},
