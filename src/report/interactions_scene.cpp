@@ -32,10 +32,10 @@ void add_object_table(SceneBuilder& scene, const Reconstruction& r) {
   for (const FoundObject& found : r.objects) {
     const OrientedBox box = upright_box(found.object);
     const Vec3 place = found.object.center(), size = 2.0 * box.half_size;
-    rows.push_back({found.object.category, number(found.confidence), fmt::format("{:.2f}, {:.2f}", place.x(), place.y()),
-                    fmt::format("{:.2f} × {:.2f} × {:.2f}", size.x(), size.y(), size.z()), spans_of(r, found.windows), name_of(found)});
+    rows.push_back({found.object.category, number(found.confidence), spans_of(r, found.windows), fmt::format("{:.2f}, {:.2f}", place.x(), place.y()),
+                    fmt::format("{:.2f} × {:.2f} × {:.2f}", size.x(), size.y(), size.z()), found.object.id});
   }
-  add_table(scene, "Objects", {column("category"), column("confidence", "", 2), column("place", "m"), column("size", "m"), column("windows", "s"), column("object")},
+  add_table(scene, "Objects", {column("category"), column("confidence", "", 2), column("windows", "s"), column("place", "m"), column("size", "m"), column("id")},
             std::move(rows), "objects");
 }
 

@@ -23,8 +23,10 @@ export class FloorLayer extends Layer {
   private grid(context: LayerContext, [x0, y0, x1, y1]: [number, number, number, number], z: number, cell: number): FatLines {
     const segments: number[] = [];
     const steps = (from: number, to: number) => Array.from({ length: Math.round((to - from) / cell) + 1 }, (_, i) => from + i * cell);
-    for (const x of steps(x0, x1)) segments.push(x, y0, z, x, y1, z);
-    for (const y of steps(y0, y1)) segments.push(x0, y, z, x1, y, z);
+    const xs = steps(x0, x1), ys = steps(y0, y1);
+    // Side by side, for the depth of a line that runs past the eye would be inexact.
+    for (const x of xs) for (const y of ys.slice(0, -1)) segments.push(x, y, z, x, y + cell, z);
+    for (const y of ys) for (const x of xs.slice(0, -1)) segments.push(x, y, z, x + cell, y, z);
     const lines = new FatLines(context.shared, this.table, { width: 1 });
     lines.set(new Float32Array(segments), new Uint8Array(segments.length / 6));
     return lines;
