@@ -8,22 +8,11 @@
 
 #include "report/collision_motion.h"
 #include "report/collision_structures.h"
-#include "unseen/core/version.h"
 
 namespace unseen::report {
 namespace {
 
 using namespace collision;
-
-Json column(std::string_view name, std::string_view unit = "", int digits = -1) {
-  Json json = {{"name", name}, {"unit", unit}};
-  if (digits >= 0) json["digits"] = digits;
-  return json;
-}
-
-void add_table(SceneBuilder& scene, std::string_view title, Json columns, Json rows) {
-  if (!rows.empty()) scene.header["tables"].push_back({{"title", title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}});
-}
 
 Json or_null(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
@@ -110,16 +99,10 @@ std::string collision_scene(const Reconstruction& r, const InputRecord& input, c
   SceneBuilder scene(Vec3::Zero());
   Json& header = scene.header;
   header["title"] = collision_title(input);
-  header["capability"] = "collision";
-  header["command"] = command;
-  header["version"] = kVersion;
+  write_run(scene, "collision", command, r.summary, options, input);
   header["inside"] = false;
   if (const auto focus = focus_of(r)) header["focus"] = *focus;
   header["facts"] = facts_of(r);
-  header["summary"] = summary_of(r.summary);
-  header["options"] = Json::array();
-  for (const Option& o : options.all()) header["options"].push_back({{"name", o.name}, {"value", o.text()}, {"unit", o.unit}, {"help", o.help}});
-  header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
   add_bodies(scene, shot, r);
   add_fixed(scene, shot, r);
   add_flights(scene, r, shot.gravity);

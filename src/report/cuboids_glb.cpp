@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include "report/cuboid_parts.h"
-#include "report/glb_builder.h"
+#include "report/glb_boxes.h"
 #include "unseen/report/cuboids_files.h"
 
 namespace unseen::report {
@@ -13,31 +13,6 @@ constexpr double kSupport = 0.6;  ///< of supports: things may stand behind a wa
 constexpr Rgb kSupportColor = {200, 200, 195};
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-
-/// Faces outward; corners as corners_of() gives them.
-constexpr std::array<std::array<std::uint32_t, 4>, 6> kFaces = {
-    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-
-/// Boxes with flat faces: each has vertices of its own.
-tinygltf::Primitive boxes_primitive(GlbBuilder& b, const std::vector<OrientedBox>& boxes, int material) {
-  std::vector<Vec3> vertices;
-  Triangles triangles;
-  for (const OrientedBox& box : boxes) {
-    const std::vector<Vec3> corners = corners_of(box);
-    for (const auto& face : kFaces) {
-      const auto first = static_cast<std::uint32_t>(vertices.size());
-      for (const std::uint32_t corner : face) vertices.push_back(corners[corner]);
-      triangles.push_back({first, first + 1, first + 2});
-      triangles.push_back({first, first + 2, first + 3});
-    }
-  }
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.material = material;
-  primitive.attributes["POSITION"] = b.add_positions(vertices);
-  primitive.indices = b.add_triangles(triangles);
-  return primitive;
-}
 
 void add_support(GlbBuilder& b, const std::string& name, const std::vector<Vec3>& polygon) {
   Triangles triangles;

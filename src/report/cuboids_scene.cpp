@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "report/cuboids_structures.h"
-#include "unseen/core/version.h"
 
 namespace unseen::report {
 namespace {
@@ -16,12 +15,6 @@ namespace {
 using cuboids::Completion;
 
 constexpr std::size_t kMostPoints = 400'000;
-
-Json column(std::string_view name, std::string_view unit = "", int digits = -1) {
-  Json json = {{"name", name}, {"unit", unit}};
-  if (digits >= 0) json["digits"] = digits;
-  return json;
-}
 
 /// "41.2 × 26.3 × 15.0"
 std::string sizes(const OrientedBox& box) {
@@ -115,17 +108,10 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
   SceneBuilder scene(Vec3::Zero());
   Json& header = scene.header;
   header["title"] = cuboids_title(input);
-  header["capability"] = "cuboids";
-  header["command"] = command;
-  header["version"] = kVersion;
+  write_run(scene, "cuboids", command, c.summary, options, input);
   header["inside"] = false;
   if (!c.cuboids.empty()) header["focus"] = focus_of(c);
   header["facts"] = facts_of(c, options);
-  header["summary"] = summary_of(c.summary);
-  header["options"] = Json::array();
-  for (const Option& o : options.all())
-    header["options"].push_back({{"name", o.name}, {"value", o.text()}, {"unit", o.unit}, {"help", o.help}});
-  header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
   const DepthPoints points = depth_points(frame, c.T_world_camera, kMostPoints);
   if (points.positions.size() < points.seen)
     header["thinned"] = {{"shown", points.positions.size()}, {"of", points.seen}};

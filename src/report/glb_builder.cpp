@@ -101,8 +101,8 @@ void GlbBuilder::add_motion(int node, const std::vector<double>& times, const st
   const int input = add_accessor(seconds, kNoTarget, kFloat, TINYGLTF_TYPE_SCALAR);
   model.accessors.back().minValues = {seconds.front()};
   model.accessors.back().maxValues = {seconds.back()};
-  const std::array<std::pair<const char*, int>, 2> outputs = {{{"translation", add_accessor(places, kNoTarget, kFloat, TINYGLTF_TYPE_VEC3)},
-                                                               {"rotation", add_accessor(turns, kNoTarget, kFloat, TINYGLTF_TYPE_VEC4)}}};
+  std::vector<std::pair<const char*, int>> outputs = {{"translation", add_accessor(places, kNoTarget, kFloat, TINYGLTF_TYPE_VEC3)}};
+  if (!turns.empty()) outputs.emplace_back("rotation", add_accessor(turns, kNoTarget, kFloat, TINYGLTF_TYPE_VEC4));
   if (model.animations.empty()) {
     model.animations.emplace_back();
     model.animations.back().name = "motion";

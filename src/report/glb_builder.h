@@ -53,8 +53,8 @@ struct GlbBuilder {
   int add_node(const std::string& name, tinygltf::Primitive primitive);
   /// A node below the root that shows nothing yet.
   int add_empty_node(const std::string& name, const Vec3& position = Vec3::Zero(), const Eigen::Quaterniond& rotation = Eigen::Quaterniond::Identity());
-  /// Moves a node: a linear key a time (s, rising from 0 or later). Neighbouring quaternions must have the same sign. All
-  /// motions are one animation.
+  /// Moves a node: a linear key a time (s, rising from 0 or later). Neighbouring quaternions must have the same sign; without any
+  /// the node keeps its rotation. All motions are one animation.
   void add_motion(int node, const std::vector<double>& times, const std::vector<Vec3>& positions, const std::vector<Eigen::Quaterniond>& rotations);
   /// A node of points, each in its colour, without light.
   void add_points(const std::string& name, const std::vector<Vec3>& positions, const std::vector<Rgb>& colors);

@@ -9,18 +9,11 @@
 #include <optional>
 
 #include "report/planes_structures.h"
-#include "unseen/core/version.h"
 
 namespace unseen::report {
 namespace {
 
 using planes::Arrangement;
-
-Json column(std::string_view name, std::string_view unit = "", int digits = -1) {
-  Json json = {{"name", name}, {"unit", unit}};
-  if (digits >= 0) json["digits"] = digits;
-  return json;
-}
 
 void add_table(SceneBuilder& scene, const Arrangement& a) {
   Json rows = Json::array();
@@ -98,18 +91,11 @@ std::string planes_scene(const Arrangement& a, const InputRecord& input, const O
   SceneBuilder scene(offset);
   Json& header = scene.header;
   header["title"] = planes_title(a, input);
-  header["capability"] = "planes";
-  header["command"] = command;
-  header["version"] = kVersion;
+  write_run(scene, "planes", command, a.summary, options, input);
   header["flat"] = a.two_dimensional;
   if (const auto focus = focus_of(points, offset)) header["focus"] = *focus;
   if (const auto inside = is_inside(a)) header["inside"] = *inside;
   header["facts"] = facts_of(a);
-  header["summary"] = summary_of(a.summary);
-  header["options"] = Json::array();
-  for (const Option& o : options.all())
-    header["options"].push_back({{"name", o.name}, {"value", o.text()}, {"unit", o.unit}, {"help", o.help}});
-  header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
   if (sample.step > 1) header["thinned"] = {{"shown", sample.positions.size()}, {"of", sample.seen}};
   add_surfaces(scene, a, surfaces, points);
   if (!points.positions.empty()) add_points(scene, a, points);

@@ -11,6 +11,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "unseen/core/version.h"
+
 namespace unseen::report {
 namespace {
 
@@ -194,6 +196,31 @@ std::string SceneBuilder::encode() const {
 
 Json quantity(std::string_view id, std::string_view name, std::string_view kind, Json array, std::string_view unit) {
   return {{"id", id}, {"name", name}, {"kind", kind}, {"unit", unit}, {"array", std::move(array)}};
+}
+
+Json column(std::string_view name, std::string_view unit, int digits) {
+  Json json = {{"name", name}, {"unit", unit}};
+  if (digits >= 0) json["digits"] = digits;
+  return json;
+}
+
+void add_table(SceneBuilder& scene, std::string_view title, Json columns, Json rows, std::string_view structure) {
+  if (rows.empty()) return;
+  Json table = {{"title", title}, {"columns", std::move(columns)}, {"rows", std::move(rows)}};
+  if (!structure.empty()) table["structure"] = structure;
+  scene.header["tables"].push_back(std::move(table));
+}
+
+void write_run(SceneBuilder& scene, std::string_view capability, const std::string& command, const Summary& summary, const OptionTable& options,
+               const InputRecord& input) {
+  Json& header = scene.header;
+  header["capability"] = capability;
+  header["command"] = command;
+  header["version"] = kVersion;
+  header["summary"] = summary_of(summary);
+  header["options"] = Json::array();
+  for (const Option& o : options.all()) header["options"].push_back({{"name", o.name}, {"value", o.text()}, {"unit", o.unit}, {"help", o.help}});
+  header["input"] = {{"path", input.path}, {"sha256", input.sha256}};
 }
 
 void write_camera(Json& to, const RigidTransform& T_world_camera, const Camera& camera) {

@@ -11,6 +11,7 @@
 
 #include "report/json_write.h"
 #include "unseen/core/geometry.h"
+#include "unseen/report/stored_run.h"
 
 namespace unseen::report {
 
@@ -58,6 +59,15 @@ class SceneBuilder {
 
 /// A quantity (docs/scene.md) of kind "label" or "scalar", to be given more fields if need be.
 Json quantity(std::string_view id, std::string_view name, std::string_view kind, Json array, std::string_view unit = "");
+
+/// A column of a table; `digits` behind the point, −1 = as many as it takes.
+Json column(std::string_view name, std::string_view unit = "", int digits = -1);
+/// Adds a table to the header, unless it has no rows. With a structure, row i is about its element i.
+void add_table(SceneBuilder& scene, std::string_view title, Json columns, Json rows, std::string_view structure = "");
+
+/// What the header says of a run: capability, command, version, summary, options, input.
+void write_run(SceneBuilder& scene, std::string_view capability, const std::string& command, const Summary& summary, const OptionTable& options,
+               const InputRecord& input);
 
 /// What a structure of kind "camera" says of its camera.
 void write_camera(Json& to, const RigidTransform& T_world_camera, const Camera& camera);

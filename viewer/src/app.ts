@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 // What the page shows: its scenes, what is selected in them, and the sliders that they share.
 import * as THREE from 'three';
+import type { CameraStructure } from './format';
+import { poseOf } from './layers/camera';
 import type { Look } from './layers/layer';
 import { Model, type Relations, type Selection } from './model';
 import { CameraRig, type ViewName } from './view/rig';
@@ -69,6 +71,8 @@ export class App {
     if (!view.model) return;
     view.selection = selection;
     view.relations = view.model.relations(selection);
+    const moment = view.model.momentOf(selection, this.time);
+    if (moment !== null) this.setTime(moment);
     this.refresh(view);
     this.emit('selection');
   }
@@ -167,6 +171,18 @@ export class App {
   view(name: ViewName) {
     this.rig.view(name);
     this.fit();
+  }
+
+  /** The first camera of the scenes. */
+  get camera(): CameraStructure | undefined {
+    for (const s of this.scenes) for (const c of s.model?.structures ?? []) if (c.kind === 'camera') return c;
+    return undefined;
+  }
+
+  lookThrough(camera: CameraStructure) {
+    this.rig.through = poseOf(camera);
+    this.rig.changed();
+    this.emit('view');
   }
 
   fit() {

@@ -35,6 +35,10 @@ interface Base {
   id: string;
   name: string;
   visible?: boolean;
+  /** What one element is called. */
+  element?: string;
+  /** One an element, shown at it. */
+  labels?: string[];
   quantities?: Quantity[];
 }
 
@@ -50,7 +54,7 @@ export interface PlanesStructure extends Base {
 }
 export interface LinesStructure extends Base { kind: 'lines'; vertices: ArrayRef; before?: ArrayRef }
 export interface BoxPoses { centers: ArrayRef; rotations: ArrayRef; sizes: ArrayRef }
-export interface BoxesStructure extends Base, BoxPoses { kind: 'boxes'; seen?: ArrayRef; before?: BoxPoses }
+export interface BoxesStructure extends Base, BoxPoses { kind: 'boxes'; seen?: ArrayRef; before?: BoxPoses; of?: ArrayRef }
 export interface GraphStructure extends Base {
   kind: 'graph';
   node_names: string[];
@@ -81,6 +85,7 @@ export interface SkeletonStructure extends Base {
   joints: ArrayRef;
   bones: ArrayRef;
   joint_count: number;
+  width?: number;
 }
 export interface CameraStructure extends Base {
   kind: 'camera';
@@ -103,22 +108,26 @@ export interface ImageStructure extends Base {
   times?: ArrayRef;
 }
 export interface ArrowsStructure extends Base { kind: 'arrows'; origins: ArrayRef; vectors: ArrayRef }
+export interface FloorStructure extends Base { kind: 'floor'; low: number[]; high: number[]; height: number; cell?: number; image?: string }
 export interface MeshStructure extends Base { kind: 'mesh'; vertices: ArrayRef; triangles: ArrayRef }
 
 export type Structure =
   | PointsStructure | PlanesStructure | LinesStructure | BoxesStructure | GraphStructure | NormalsStructure
-  | TrajectoryStructure | SkeletonStructure | CameraStructure | ImageStructure | MeshStructure | ArrowsStructure;
+  | TrajectoryStructure | SkeletonStructure | CameraStructure | ImageStructure | MeshStructure | ArrowsStructure | FloorStructure;
 
 export type Cell = string | number | null;
 export interface Column { name: string; unit?: string; digits?: number }
 export interface Table { title: string; structure?: string; columns: Column[]; rows: Cell[][] }
-export interface Series { name: string; color: number; hollow?: boolean; x: ArrayRef; y: ArrayRef }
+export interface Series { name: string; color: number; hollow?: boolean; line?: boolean; x: ArrayRef; y: ArrayRef }
+/** A stretch of a chart's axis that speaks for elements of a structure. */
+export interface Span { from: number; to: number; name: string; color: number; weight: number; elements?: { structure: string; indices: number[] } }
 export interface Chart {
   title: string;
   x: { name: string; unit?: string; seconds?: number };
-  y: { name: string; unit?: string };
+  y: { name: string; unit?: string; high?: number };
   series: Series[];
   marks?: { x: number; name: string }[];
+  spans?: Span[];
 }
 export interface Summary {
   status?: string;

@@ -12,6 +12,7 @@ export function addKeyboard(app: App, help: HTMLDialogElement) {
     2: () => app.view('top'),
     3: () => app.view('front'),
     4: () => app.view('side'),
+    5: () => app.camera && app.lookThrough(app.camera),
     o: () => app.setOrtho(!app.rig.ortho),
     w: () => app.setFading(!app.fading),
     s: () => click('#tool-section'),

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 // One scene with its arrays, and what of it belongs together.
 import { floatArray, storedArray, type DecodedScene, type Numbers } from './decode';
-import type { ArrayRef, Elements, GraphStructure, Header, Quantity, Structure, Table } from './format';
+import type { ArrayRef, Chart, Elements, GraphStructure, Header, Quantity, Span, Structure, Table } from './format';
 
 export interface Selection {
   structure: string;
@@ -60,7 +60,7 @@ export class Model {
       case 'points': return s.positions.count;
       case 'planes': return s.normals.count;
       case 'lines': return s.vertices.count / 2;
-      case 'boxes': return s.centers.count;
+      case 'boxes': return s.of ? [...this.stored(s.of)].reduce((n, e) => Math.max(n, e + 1), 0) : s.centers.count;
       case 'graph': return s.node_names.length;
       case 'normals': return s.after.count;
       case 'trajectory': return s.shapes.length;
@@ -154,13 +154,30 @@ export class Model {
     return out;
   }
 
+  /** The stretches of a chart that speak for an element, the weightiest first. */
+  spansFor(chart: Chart, selection: Selection | null): Span[] {
+    const own = (chart.spans ?? []).filter((s) => s.elements && s.elements.structure === selection?.structure && s.elements.indices.includes(selection.index));
+    return own.sort((a, b) => b.weight - a.weight);
+  }
+
+  /** A time at which one sees why an element is there: `time` if it is one of them. */
+  momentOf(selection: Selection | null, time: number): number | null {
+    for (const chart of this.header.charts ?? []) {
+      const per = chart.x.seconds;
+      const spans = this.spansFor(chart, selection);
+      if (!per || spans.length === 0) continue;
+      return spans.some((s) => s.from * per <= time && time <= s.to * per) ? time : 0.5 * (spans[0]!.from + spans[0]!.to) * per;
+    }
+    return null;
+  }
+
   /** What an element is called. */
   nameOf(selection: Selection): string {
     const s = this.get(selection.structure);
     if (!s) return '';
     if (s.kind === 'graph') return s.node_names[selection.index] ?? `node ${selection.index}`;
-    const kind = { points: 'point', planes: 'plane', lines: 'line', boxes: 'box', normals: 'direction', trajectory: 'body',
-                   skeleton: 'person', camera: 'camera', image: 'image', mesh: 'vertex', arrows: 'arrow' }[s.kind];
+    const kind = s.element ?? { points: 'point', planes: 'plane', lines: 'line', boxes: 'box', normals: 'direction', trajectory: 'body',
+                   skeleton: 'person', camera: 'camera', image: 'image', mesh: 'vertex', arrows: 'arrow', floor: 'floor' }[s.kind];
     return `${kind[0]!.toUpperCase()}${kind.slice(1)} ${selection.index}`;
   }
 }

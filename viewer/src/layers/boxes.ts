@@ -27,22 +27,26 @@ export class BoxesLayer extends ColoredLayer {
   private readonly dashedEdges?: FatLines;
   private readonly outline: FatLines;
   private readonly partial: number[];  // boxes of which a part was not seen
+  private readonly of: ArrayLike<number>;  // the element that each box is part of
+  private readonly boxes: number;
   private readonly ink = inkTable();
   private drawn = -1;
 
   constructor(context: LayerContext, structure: BoxesStructure) {
-    super(context, structure, structure.centers.count, (i) => labelColor(i));
+    super(context, structure, context.model.count(structure), (i) => labelColor(i));
     const { model, shared } = context;
     const poses = (p: { centers: BoxesStructure['centers']; rotations: BoxesStructure['rotations']; sizes: BoxesStructure['sizes'] }) => ({
       centers: model.floats(p.centers), rotations: model.floats(p.rotations), sizes: model.floats(p.sizes) });
     this.after = poses(structure);
     this.free = structure.before && poses(structure.before);
     this.seen = structure.seen && model.floats(structure.seen);
-    const owner = Array.from({ length: 8 * this.count }, (_, i) => Math.floor(i / 8));
-    const faces = Array.from({ length: this.count }, (_, i) => kBoxFaces.map((c) => 8 * i + c)).flat();
-    const edges = Array.from({ length: 12 * this.count }, (_, i) => Math.floor(i / 12));
+    this.boxes = structure.centers.count;
+    this.of = structure.of ? model.stored(structure.of) : Array.from({ length: this.boxes }, (_, i) => i);
+    const owner = Array.from({ length: 8 * this.boxes }, (_, i) => this.of[Math.floor(i / 8)]!);
+    const faces = Array.from({ length: this.boxes }, (_, i) => kBoxFaces.map((c) => 8 * i + c)).flat();
+    const edges = Array.from({ length: 12 * this.boxes }, (_, i) => this.of[Math.floor(i / 12)]!);
     const solid = this.corners(0, this.seen !== undefined), whole = this.corners(0, false);
-    this.partial = Array.from({ length: this.count }, (_, i) => i).filter((i) =>
+    this.partial = Array.from({ length: this.boxes }, (_, i) => i).filter((i) =>
       solid.subarray(24 * i, 24 * i + 24).some((v, k) => Math.abs(v - whole[24 * i + k]!) > 1e-5));
     this.solid = new TriMesh(shared, this.table, solid, owner, faces);
     this.solidEdges = new FatLines(shared, this.table, { width: 1.6, shade: 0.55 });
@@ -51,7 +55,7 @@ export class BoxesLayer extends ColoredLayer {
     if (this.seen) {
       this.shell = new TriMesh(shared, this.table, whole.slice(), owner, faces, undefined, 0.2);
       this.dashedEdges = new FatLines(shared, this.table, { width: 1.8, dash: 5, shade: 0.8 });
-      this.dashedEdges.set(this.inferredEdges(whole), Array.from({ length: 12 * this.partial.length }, (_, k) => this.partial[Math.floor(k / 12)]!));
+      this.dashedEdges.set(this.inferredEdges(whole), Array.from({ length: 12 * this.partial.length }, (_, k) => this.of[this.partial[Math.floor(k / 12)]!]!));
       this.object.add(this.shell.object, this.dashedEdges.object);
     }
     this.outline = new FatLines(shared, this.ink, { width: 2.6, onTop: true });
@@ -84,9 +88,9 @@ export class BoxesLayer extends ColoredLayer {
   }
 
   private corners(t: number, seen: boolean): Float32Array {
-    const out = new Float32Array(24 * this.count);
+    const out = new Float32Array(24 * this.boxes);
     const p = new THREE.Vector3();
-    for (let i = 0; i < this.count; ++i) {
+    for (let i = 0; i < this.boxes; ++i) {
       const { toWorld, size } = this.frame_(i, t);
       const corners = boxCorners(...this.range(i, size, seen, t));
       for (let k = 0; k < 8; ++k) p.fromArray(corners, 3 * k).applyMatrix4(toWorld).toArray(out, 24 * i + 3 * k);
@@ -95,8 +99,8 @@ export class BoxesLayer extends ColoredLayer {
   }
 
   private allEdges(corners: Float32Array): Float32Array {
-    const out = new Float32Array(72 * this.count);
-    for (let i = 0; i < this.count; ++i) out.set(edgesOf(corners.subarray(24 * i, 24 * i + 24)), 72 * i);
+    const out = new Float32Array(72 * this.boxes);
+    for (let i = 0; i < this.boxes; ++i) out.set(edgesOf(corners.subarray(24 * i, 24 * i + 24)), 72 * i);
     return out;
   }
 
@@ -118,7 +122,8 @@ export class BoxesLayer extends ColoredLayer {
       this.dashedEdges?.move(this.inferredEdges(whole));
     }
     const edges = this.allEdges(this.corners(look.before, false));
-    const marked = this.marked();
+    const chosen = new Set(this.marked());
+    const marked = Array.from({ length: this.boxes }, (_, i) => i).filter((i) => chosen.has(this.of[i]!));
     const out = new Float32Array(72 * marked.length);
     marked.forEach((m, k) => out.set(edges.subarray(72 * m, 72 * m + 72), 72 * k));
     this.outline.set(out, new Uint8Array(12 * marked.length));
@@ -126,17 +131,19 @@ export class BoxesLayer extends ColoredLayer {
 
   override pick(ray: THREE.Ray): Hit | null {
     let best: Hit | null = null;
-    for (let i = 0; i < this.count; ++i) {
+    for (let i = 0; i < this.boxes; ++i) {
       const { toWorld, size } = this.frame_(i, this.context.shared.uBefore.value);
       const [low, high] = this.range(i, size, false, 0);
       const distance = hitBox(ray, toWorld, new THREE.Vector3(...low), new THREE.Vector3(...high));
       if (distance !== null && (!best || distance < best.distance) && this.context.shared.shows(ray.at(distance, new THREE.Vector3())))
-        best = { selection: { structure: this.structure.id, index: i }, distance };
+        best = { selection: { structure: this.structure.id, index: this.of[i]! }, distance };
     }
     return best;
   }
 
+  /** The middle of its first box. */
   override anchor(i: number): THREE.Vector3 {
-    return new THREE.Vector3().setFromMatrixPosition(this.frame_(i, this.context.shared.uBefore.value).toWorld);
+    const first = Array.from({ length: this.boxes }, (_, k) => k).find((k) => this.of[k] === i) ?? 0;
+    return new THREE.Vector3().setFromMatrixPosition(this.frame_(first, this.context.shared.uBefore.value).toWorld);
   }
 }

@@ -6,6 +6,7 @@ import type { Structure } from '../format';
 import { ArrowsLayer } from './arrows';
 import { BoxesLayer } from './boxes';
 import { CameraLayer, ImageLayer } from './camera';
+import { FloorLayer } from './floor';
 import { GraphLayer } from './graph';
 import type { Layer, LayerContext } from './layer';
 import { LinesLayer } from './lines';
@@ -27,6 +28,7 @@ export function makeLayer(context: LayerContext, s: Structure): Layer | null {
     case 'skeleton': return new SkeletonLayer(context, s);
     case 'camera': return new CameraLayer(context, s, extentOf(context));
     case 'image': return new ImageLayer(context, s);
+    case 'floor': return new FloorLayer(context, s);
     case 'mesh': return new MeshLayer(context, s);
     default: return null;
   }

@@ -15,6 +15,7 @@ export class SkeletonLayer extends ColoredLayer {
   private readonly joints: Float32Array;
   private readonly bones: ArrayLike<number>;
   private readonly jointCount: number;
+  private readonly width: number;  // px
   private readonly lines: FatLines;
   private segments = new Float32Array(0);
   private owner: number[] = [];
@@ -26,7 +27,8 @@ export class SkeletonLayer extends ColoredLayer {
     this.joints = model.floats(structure.joints);
     this.bones = model.stored(structure.bones);
     this.jointCount = structure.joint_count;
-    this.lines = new FatLines(shared, this.table, { width: 5, bias: 1e-4 });
+    this.width = structure.width ?? 5;
+    this.lines = new FatLines(shared, this.table, { width: this.width, bias: 1e-4 });
     this.object.add(this.lines.object);
     const p = new THREE.Vector3();
     for (let i = 0; i < this.joints.length; i += 3)
@@ -56,7 +58,7 @@ export class SkeletonLayer extends ColoredLayer {
       }
     this.segments = new Float32Array(segments);
     this.lines.set(this.segments, this.owner);
-    this.lines.width = this.marked().length > 0 ? 7 : 5;
+    this.lines.width = this.width + (this.marked().length > 0 ? 2 : 0);
   }
 
   override pick(ray: THREE.Ray, view: View, at: THREE.Vector2): Hit | null {

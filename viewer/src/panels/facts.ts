@@ -10,7 +10,7 @@ import { cellText } from './table';
 export function nameIn(view: SceneView, selection: Selection): string {
   const model = view.model!;
   const table = model.table(selection.structure);
-  const tag = table?.columns.findIndex((c) => /^(tag|name|class|kind)$/i.test(c.name)) ?? -1;
+  const tag = table?.columns.findIndex((c) => /^(tag|name|class|kind|category)$/i.test(c.name)) ?? -1;
   const text = tag >= 0 ? table!.rows[selection.index]?.[tag] : undefined;
   return model.nameOf(selection) + (text ? ` · ${text}` : '');
 }

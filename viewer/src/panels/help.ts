@@ -10,7 +10,7 @@ export function helpDialog(app: App): HTMLDialogElement {
     ['Wheel, pinch, + −', 'nearer and farther'],
     ['Click, tap', 'select; Esc clears'],
     ['F', 'fit the scene'],
-    ...(app.rig.flat ? [] : [['1 2 3 4', 'from a corner, above, front, side'], ['O', 'perspective or parallel projection'], ['W', 'fade walls in front'], ['S', 'section plane']] as [string, string][]),
+    ...(app.rig.flat ? [] : [['1 2 3 4', 'from a corner, above, front, side'], ...(app.camera ? [['5', 'through the camera']] : []), ['O', 'perspective or parallel projection'], ['W', 'fade walls in front'], ['S', 'section plane']] as [string, string][]),
     ...(app.timeRange ? [['Space', 'play and pause'], ['← →', 'step in time']] as [string, string][] : [['Arrows', 'turn the view (Shift: move it)']] as [string, string][]),
     ['B', 'between free fit and result'], ['L', 'layers'], ['D', 'light or dark'], ['P', 'export the picture'], ['Tab', 'through all controls; arrow keys within tables, tabs, graph and sphere'],
   ];

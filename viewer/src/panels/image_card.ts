@@ -4,7 +4,7 @@
 import type { App, SceneView } from '../app';
 import { h } from '../dom';
 import type { CameraStructure, ImageStructure } from '../format';
-import { ImageLayer, poseOf } from '../layers/camera';
+import type { ImageLayer } from '../layers/camera';
 
 export function imageCard(app: App, view: SceneView): HTMLElement | null {
   const model = view.model!;
@@ -17,11 +17,7 @@ export function imageCard(app: App, view: SceneView): HTMLElement | null {
     element.setAttribute('aria-label', image.name);
     return h('figure', {}, element, h('figcaption', { class: 'quiet' }, image.name));
   });
-  const buttons = cameras.map((c) => h('button', { type: 'button', class: 'button', onclick: () => {
-    app.rig.through = poseOf(c);
-    app.rig.changed();
-    app.emit('view');
-  } }, cameras.length > 1 ? `Look through ${c.name}` : 'Look through the camera'));
+  const buttons = cameras.map((c) => h('button', { type: 'button', class: 'button', onclick: () => app.lookThrough(c) }, cameras.length > 1 ? `Look through ${c.name}` : 'Look through the camera'));
   return h('details', { class: 'card images', open: matchMedia('(min-width: 800px)').matches }, h('summary', {}, images.length > 0 ? 'Image' : 'Camera'),
     h('div', { class: 'card-body' }, ...pictures, ...buttons));
 }

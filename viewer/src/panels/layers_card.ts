@@ -25,7 +25,7 @@ export function layersCard(app: App, view: SceneView, open: boolean): HTMLElemen
     };
     sync();
     syncs.push(sync);
-    rows.push(h('div', { class: 'layer' }, h('label', { class: 'check' }, box, h('span', {}, structure.name), h('span', { class: 'count' }, grouped(model.count(structure)))), color));
+    rows.push(h('div', { class: 'layer' }, h('label', { class: 'check' }, box, h('span', {}, structure.name), structure.kind === 'floor' ? null : h('span', { class: 'count' }, grouped(model.count(structure)))), color));
   }
   app.on('layers', () => syncs.forEach((f) => f()));
   const hasPoints = [...viewport.layers.values()].some((l) => l instanceof PointsLayer);

@@ -4,6 +4,7 @@
 import type { App, SceneView } from '../app';
 import { h } from '../dom';
 import { imageCard } from './image_card';
+import { labelsOver } from './labels';
 import { layersCard } from './layers_card';
 import { legend } from './legend';
 
@@ -17,7 +18,7 @@ export function stage(app: App, view: SceneView, index: number): HTMLElement {
   canvas.setAttribute('aria-label', `${view.model!.header.title}: ${structures}. The table lists what was found. Press ? for shortcuts.`);
   canvas.addEventListener('focus', () => app.activate(index));
   const wide = matchMedia('(min-width: 800px)').matches;
-  const box = h('div', { class: 'stage' }, canvas, label,
+  const box = h('div', { class: 'stage' }, canvas, label, ...labelsOver(view),
     h('div', { class: 'cards left' }, layersCard(app, view, wide && app.scenes.length < 2), legend(app, view)), imageCard(app, view));
   const mark = () => box.classList.toggle('active', app.scenes.length > 1 && app.active === index);
   app.on('active', mark);

@@ -61,7 +61,8 @@ export function toolbar(app: App, title: string, help: () => void): HTMLElement 
       ...(has3d ? [
         iconButton('fit', 'Fit the scene (F)', () => app.fit()),
         ...(flat ? [] : [iconButton('cube', 'From a corner (1)', () => app.view('perspective')), iconButton('top', 'From above (2)', () => app.view('top')),
-                         iconButton('front', 'From the front (3)', () => app.view('front')), iconButton('side', 'From the side (4)', () => app.view('side')), ortho, gap(), walls, section, popover]),
+                         iconButton('front', 'From the front (3)', () => app.view('front')), iconButton('side', 'From the side (4)', () => app.view('side')),
+                         app.camera && iconButton('camera', 'Through the camera (5)', () => app.lookThrough(app.camera!)), ortho, gap(), walls, section, popover]),
         gap(),
         iconButton('copy', 'Copy the picture', () => void copyPicture(app)), iconButton('download', 'Export the picture as PNG (P)', () => void exportPng(app)),
       ] : []),

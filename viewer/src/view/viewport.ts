@@ -52,7 +52,7 @@ export class Viewport {
     this.scene.matrixWorldAutoUpdate = true;
     const context: LayerContext = { model, shared: this.shared, layers: this.layers, invalidate: () => this.invalidate() };
     // Points look up the planes that they lie on, and cameras their images: those come first.
-    const order = ['image', 'mesh', 'planes', 'lines', 'boxes', 'points', 'trajectory', 'skeleton', 'camera', 'graph'];
+    const order = ['image', 'floor', 'mesh', 'planes', 'lines', 'boxes', 'points', 'trajectory', 'skeleton', 'camera', 'graph'];
     const rank = (kind: string) => order.indexOf(kind);
     for (const s of [...model.structures].sort((a, b) => rank(a.kind) - rank(b.kind))) {
       const layer = makeLayer(context, s);
@@ -234,11 +234,11 @@ export class Viewport {
     });
   }
 
-  /** Where a point of the world is on the canvas, in CSS pixels. */
-  project(p: THREE.Vector3): { x: number; y: number } {
+  /** Where a point of the world is on the canvas, in CSS pixels, and whether the camera looks its way. */
+  project(p: THREE.Vector3): { x: number; y: number; ahead: boolean } {
     this.aim();
     const q = p.clone().project(this.view.camera);
-    return { x: ((q.x + 1) / 2) * this.view.width, y: ((1 - q.y) / 2) * this.view.height };
+    return { x: ((q.x + 1) / 2) * this.view.width, y: ((1 - q.y) / 2) * this.view.height, ahead: Math.abs(q.z) <= 1 };
   }
 
   set fading(on: boolean) {

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "unseen/report/interactions_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "report/interactions_structures.h"
+#include "unseen/report/interactions_result.h"
+
+namespace unseen::report {
+namespace {
+
+using namespace interactions;
+
+double seconds_of(const Reconstruction& r, int frame) { return frame / r.fps; }
+
+/// "2.4–5.1, 7–8.2", in seconds.
+std::string spans_of(const Reconstruction& r, const std::vector<int>& windows) {
+  std::string text;
+  for (const int w : windows) {
+    const Window& window = r.windows[static_cast<std::size_t>(w)];
+    text += fmt::format("{}{:.1f}–{:.1f}", text.empty() ? "" : ", ", seconds_of(r, window.first), seconds_of(r, window.last));
+  }
+  return text;
+}
+
+void add_object_table(SceneBuilder& scene, const Reconstruction& r) {
+  Json rows = Json::array();
+  for (const FoundObject& found : r.objects) {
+    const OrientedBox box = upright_box(found.object);
+    const Vec3 place = found.object.center(), size = 2.0 * box.half_size;
+    rows.push_back({found.object.category, number(found.confidence), spans_of(r, found.windows), fmt::format("{:.2f}, {:.2f}", place.x(), place.y()),
+                    fmt::format("{:.2f} × {:.2f} × {:.2f}", size.x(), size.y(), size.z()), found.object.id});
+  }
+  add_table(scene, "Objects", {column("category"), column("confidence", "", 2), column("windows", "s"), column("place", "m"), column("size", "m"), column("id")},
+            std::move(rows), "objects");
+}
+
+double share_from_scenelets(const std::vector<PersonFrame>& frames) {
+  const auto count = std::count_if(frames.begin(), frames.end(), [](const PersonFrame& f) { return f.source == PoseSource::scenelet; });
+  return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, frames.size()));
+}
+
+/// On the ground, m.
+double path_length(const std::vector<PersonFrame>& frames) {
+  double sum = 0;
+  for (std::size_t i = 1; i < frames.size(); ++i) sum += (frames[i].pose.col(pelvis) - frames[i - 1].pose.col(pelvis)).head<2>().norm();
+  return sum;
+}
+
+void add_people_table(SceneBuilder& scene, const Reconstruction& r) {
+  Json rows = Json::array();
+  for (const Person& p : r.people) {
+    if (p.frames.empty()) rows.push_back({name_of(p), nullptr, nullptr, 0, nullptr, nullptr});
+    else
+      rows.push_back({name_of(p), number(seconds_of(r, p.frames.front().frame)), number(seconds_of(r, p.frames.back().frame)), p.frames.size(),
+                      number(100.0 * share_from_scenelets(p.frames)), number(path_length(p.frames))});
+  }
+  add_table(scene, "People",
+            {column("name"), column("from", "s", 1), column("to", "s", 1), column("frames"), column("from scenelets", "%", 0), column("path", "m", 1)},
+            std::move(rows), "people");
+}
+
+void add_window_table(SceneBuilder& scene, const Reconstruction& r) {
+  Json rows = Json::array();
+  for (const Window& w : r.windows)
+    rows.push_back({number(seconds_of(r, w.first)), number(seconds_of(r, w.last)), w.person, number(w.likelihood), number(w.energy), w.scenelet});
+  add_table(scene, "Windows", {column("from", "s", 1), column("to", "s", 1), column("person"), column("likelihood", "", 2), column("energy", "", 3), column("scenelet")},
+            std::move(rows));
+}
+
+Json facts_of(const Reconstruction& r) {
+  Json facts = Json::array();
+  const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
+  std::size_t frames = 0;
+  double scenelets = 0, hidden = 0;
+  for (const Person& p : r.people) {
+    frames += p.frames.size();
+    scenelets += share_from_scenelets(p.frames) * static_cast<double>(p.frames.size());
+    for (const PersonFrame& f : p.frames) hidden += static_cast<double>((f.confidence < 0.5).count()) / kJoints;
+  }
+  fact("objects", std::to_string(r.objects.size()));
+  fact("people", std::to_string(r.people.size()));
+  fact("interactions", std::to_string(r.windows.size()));
+  if (frames > 0) {
+    const double all = static_cast<double>(frames);
+    fact("poses", std::to_string(frames));
+    fact("poses from scenelets", fmt::format("{:.0f} %", 100.0 * scenelets / all));
+    fact("joints hardly seen", fmt::format("{:.0f} %", 100.0 * hidden / all));
+  }
+  fact("camera height", fmt::format("{:.2f} m", r.ground.camera_height));
+  fact("camera pitch", fmt::format("{:.1f}°", degrees(r.ground.pitch)));
+  if (!r.ground.source.empty()) fact("ground from", r.ground.source);
+  return facts;
+}
+
+/// The room, not the camera before it.
+Json focus_of(const Eigen::AlignedBox3d& reach) {
+  const Vec3 margin = Vec3::Constant(std::max(0.1, 0.03 * reach.sizes().maxCoeff()));
+  return {{"low", vector_of(reach.min() - margin)}, {"high", vector_of(reach.max() + margin)}};
+}
+
+}  // namespace
+
+std::string interactions_scene(const Reconstruction& r, const InputRecord& input, const OptionTable& options, const std::string& command,
+                               const std::vector<Take>& takes) {
+  SceneBuilder scene(Vec3::Zero());
+  Json& header = scene.header;
+  header["title"] = interactions_title(input);
+  write_run(scene, "interactions", command, r.summary, options, input);
+  header["inside"] = false;
+  if (const Eigen::AlignedBox3d reach = reach_of(r); !reach.isEmpty()) header["focus"] = focus_of(reach);
+  header["facts"] = facts_of(r);
+  add_floor(scene, r);
+  add_objects(scene, r);
+  add_people(scene, r);
+  add_paths(scene, r);
+  add_camera(scene, r);
+  if (takes.size() == 1) add_detections(scene, r, takes.front());
+  add_likelihood_chart(scene, r);
+  add_object_table(scene, r);
+  add_people_table(scene, r);
+  add_window_table(scene, r);
+  return scene.encode();
+}
+
+std::string interactions_title(const InputRecord& input) {
+  std::filesystem::path path(input.path);
+  if (path.filename() == "take.json" && path.has_parent_path()) path = path.parent_path();
+  const std::string name = path.filename().string();
+  return "Interactions of " + (name.empty() ? input.path : name);
+}
+
+}  // namespace unseen::report
