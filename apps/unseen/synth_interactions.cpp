@@ -50,7 +50,8 @@ int run(Arguments& args) {
     write_files(report::interactions_scene_files(synth, table), out);
   }
   const interactions::Recording& truth = synth.truth;
-  summary.counts = {{"frames", truth.people.at(0).size()}, {"people", truth.people.size()}, {"objects", truth.objects.size()}, {"interacted", truth.interacted.size()}};
+  summary.counts = {{"frames", truth.people.at(0).size()}, {"people", truth.people.size()}, {"objects", truth.objects.size()},
+                    {"interacted", truth.interacted.size()}};
   summary.warnings = context.take_warnings();
   context.check();
   session.progress.warn(out.commit());

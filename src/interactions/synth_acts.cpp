@@ -62,7 +62,8 @@ void stand_about(Motion& motion, const Body& body, const Manner& manner, double 
   Posture p = base;
   const double ahead_of = heading(base.hips);
   p.chest = about_z(ahead_of + random.uniform(-0.25, 0.25)) * about_x(-manner.stoop);
-  p.head = about_z(ahead_of + random.uniform(-0.8, 0.8)) * about_x(random.uniform(-0.35, 0.1));
+  p.head = about_z(ahead_of + random.uniform(-0.8, 0.8));
+  p.head = p.head * about_x(random.uniform(-0.35, 0.1));
   for (const int side : {kRight, kLeft}) p.hands[side] = hanging_hand(body, p, side, 0.05, 0.25);
   const auto before_chest = [&](double x, double y, double z) { return Vec3(p.pelvis + p.chest * Vec3(x, y, body.trunk + z)); };
   const int side = random.uniform() < 0.7 ? kRight : kLeft;

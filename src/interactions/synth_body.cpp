@@ -86,7 +86,8 @@ Pose pose_of(const Body& body, const Posture& posture) {
     const Vec3 knee = middle_joint(hip, ankle, body.thigh, body.shank, posture.hips * Vec3(0.12 * outward(side), 1.0, 0.15));
     const Vec3 shoulder = shoulder_of(body, posture, side);
     Vec3 wrist = posture.hands[side];
-    const Vec3 elbow = middle_joint(shoulder, wrist, body.upper_arm, body.forearm, posture.chest * elbow_side(posture.chest.inverse() * (wrist - shoulder), side));
+    const Vec3 pole = posture.chest * elbow_side(posture.chest.inverse() * (wrist - shoulder), side);
+    const Vec3 elbow = middle_joint(shoulder, wrist, body.upper_arm, body.forearm, pole);
     const Vec3 leg[] = {hip, knee, ankle}, arm[] = {shoulder, elbow, wrist};
     for (int k = 0; k < 3; ++k) {
       pose.col(legs[side][k]) = leg[k];

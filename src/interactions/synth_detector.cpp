@@ -110,7 +110,7 @@ std::vector<Detection> detect(const View& view, const std::vector<RecordedFrame>
       }
       const bool sure = !hidden || guess.confident;
       double confidence = sure ? draw_beta(17.0, 3.0, random) : draw_beta(3.0, 12.0, random);
-      const Vec2 error = options.noise * Vec2(random.normal(), random.normal());
+      const Vec2 error = options.noise * Vec2{random.normal(), random.normal()};
       if (pose(2, j) < 0.1) continue;
       const Vec2 pixel = view.camera.project(pose.col(j)) + error + (hidden ? Vec2(size * guess.offset) : Vec2::Zero());
       if (pixel.x() < -0.5 || pixel.y() < -0.5 || pixel.x() > view.camera.width - 0.5 || pixel.y() > view.camera.height - 0.5) continue;

@@ -7,6 +7,8 @@
 namespace unseen::interactions {
 namespace {
 
+// Sizes are drawn in braces: unlike arguments in parentheses they come in this order with every compiler.
+
 /// Adds a box between two corners; the second part of a name becomes NAME-1, as in the i3DB scenes.
 void add(Object& object, const std::string& name, const Vec3& low, const Vec3& high) {
   int same = 0;
@@ -25,7 +27,7 @@ void add_legs(Object& object, const Vec2& half, double top, double thick) {
 Piece chair(Random& random, bool stool) {
   Piece p;
   p.object.category = stool ? "stool" : "chair";
-  p.half = stool ? Vec2::Constant(random.uniform(0.17, 0.23)) : Vec2(random.uniform(0.21, 0.26), random.uniform(0.22, 0.26));
+  p.half = stool ? Vec2::Constant(random.uniform(0.17, 0.23)) : Vec2{random.uniform(0.21, 0.26), random.uniform(0.22, 0.26)};
   p.surface = stool ? random.uniform(0.42, 0.50) : random.uniform(0.43, 0.48);
   p.edge = p.half.y();
   p.depth = 2.0 * p.half.y();
@@ -50,7 +52,7 @@ Piece couch(Random& random, bool armchair) {
   Piece p;
   p.object.category = "couch";
   const double arm = random.uniform(0.12, 0.22), back = random.uniform(0.15, 0.24);
-  p.half = Vec2(0.5 * (armchair ? random.uniform(0.52, 0.62) : random.uniform(1.2, 2.0)) + arm, 0.5 * (random.uniform(0.54, 0.64) + back));
+  p.half = Vec2{0.5 * (armchair ? random.uniform(0.52, 0.62) : random.uniform(1.2, 2.0)) + arm, 0.5 * (random.uniform(0.54, 0.64) + back)};
   p.surface = random.uniform(0.38, 0.45);
   p.height = random.uniform(0.72, 0.92);
   p.edge = p.half.y();
@@ -69,7 +71,7 @@ Piece couch(Random& random, bool armchair) {
 Piece bed(Random& random) {
   Piece p;
   p.object.category = "bed";
-  p.half = Vec2(0.5 * random.uniform(2.0, 2.15), 0.5 * random.uniform(0.9, 1.6));
+  p.half = Vec2{0.5 * random.uniform(2.0, 2.15), 0.5 * random.uniform(0.9, 1.6)};
   p.surface = random.uniform(0.42, 0.55);
   p.height = p.surface + random.uniform(0.25, 0.5);
   p.edge = p.half.y();
@@ -86,9 +88,9 @@ Piece table(Random& random, Kind kind) {
   Piece p;
   const bool low = kind == Kind::coffee_table, desk = kind == Kind::desk;
   p.object.category = desk ? "desk" : "table";
-  p.half = low    ? Vec2(random.uniform(0.42, 0.62), random.uniform(0.25, 0.35))
-           : desk ? Vec2(random.uniform(0.6, 0.8), random.uniform(0.3, 0.4))
-                  : Vec2(random.uniform(0.55, 0.9), random.uniform(0.37, 0.46));
+  p.half = low    ? Vec2{random.uniform(0.42, 0.62), random.uniform(0.25, 0.35)}
+           : desk ? Vec2{random.uniform(0.6, 0.8), random.uniform(0.3, 0.4)}
+                  : Vec2{random.uniform(0.55, 0.9), random.uniform(0.37, 0.46)};
   p.surface = p.height = low ? random.uniform(0.38, 0.50) : random.uniform(0.71, 0.77);
   p.edge = p.half.y();
   p.depth = 2.0 * p.half.y();
@@ -107,7 +109,7 @@ Piece table(Random& random, Kind kind) {
 Piece shelf(Random& random, bool sideboard) {
   Piece p;
   p.object.category = "shelf";
-  p.half = Vec2(0.5 * random.uniform(sideboard ? 0.9 : 0.7, sideboard ? 1.5 : 1.2), 0.5 * random.uniform(0.28, 0.42));
+  p.half = Vec2{0.5 * random.uniform(sideboard ? 0.9 : 0.7, sideboard ? 1.5 : 1.2), 0.5 * random.uniform(0.28, 0.42)};
   p.edge = p.half.y();
   p.room = p.half.x() - 0.2;
   double z = sideboard ? random.uniform(0.1, 0.4) : random.uniform(0.3, 0.95);

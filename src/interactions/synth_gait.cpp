@@ -45,7 +45,8 @@ std::vector<Place> stroll(const std::vector<Vec2>& path, double heading, double 
   std::vector<double> length = {0.0};
   for (std::size_t i = 1; i < path.size(); ++i) length.push_back(length.back() + (path[i] - path[i - 1]).norm());
   const auto point = [&](double s) -> Vec2 {
-    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(std::upper_bound(length.begin(), length.end(), s) - length.begin(), 1, static_cast<std::ptrdiff_t>(path.size()) - 1));
+    const auto after = std::upper_bound(length.begin() + 1, length.end() - 1, s);
+    const auto i = static_cast<std::size_t>(after - length.begin());
     const double part = length[i] - length[i - 1];
     return path[i - 1] + (part > 0 ? std::clamp((s - length[i - 1]) / part, 0.0, 1.0) : 0.0) * (path[i] - path[i - 1]);
   };
@@ -148,9 +149,10 @@ double ease(double u) {
 
 Manner draw_manner(Random& random) {
   Manner m;
-  m.speed = random.uniform(0.65, 1.25);
+  m.speed = random.uniform(0.75, 1.35);
   m.swing = random.uniform(0.35, 0.8);
-  m.stoop = random.uniform(0.0, 0.10);
+  m.stoop = random.uniform(0.0, 0.14);
+  m.bend = random.uniform(0.2, 0.7);
   m.lively = random.uniform(0.8, 1.25);
   m.phase = random.uniform(0.0, 2.0 * kPi);
   return m;
@@ -184,8 +186,11 @@ void walk(Motion& motion, const Body& body, const Manner& manner, const std::vec
     p.chest = upright * about_z(0.16 * stride[k]) * about_x(-lean[k]) * about_y(-0.02 * sway[k]);
     p.head = upright * about_z(turn[k]) * about_x(-0.5 * lean[k]);
     p.feet = feet[k];
-    for (const int side : {kRight, kLeft})
-      p.hands[side] = hanging_hand(body, p, side, 0.03 + outward(side) * manner.swing * stride[k], 0.25 + 0.15 * places[k].speed + 0.2 * std::max(0.0, outward(side) * stride[k]));
+    for (const int side : {kRight, kLeft}) {
+      const double forward = outward(side) * stride[k];  // against the foot of that side
+      p.hands[side] = hanging_hand(body, p, side, 0.03 + manner.swing * forward,
+                                   manner.bend + 0.15 * places[k].speed + 0.2 * std::max(0.0, forward));
+    }
     if (manner.carrying >= 0)
       p.hands[static_cast<std::size_t>(manner.carrying)] = p.pelvis + p.chest * Vec3(outward(manner.carrying) * 0.06, 0.27, 0.5 * body.trunk);
     const bool stepping = std::max(feet[k][kRight].z(), feet[k][kLeft].z()) > body.ankle + 0.01;

@@ -26,6 +26,7 @@ double ease(double u);
 struct Manner {
   double speed = 1.0;      ///< m/s, walking
   double swing = 0.6;      ///< of arms, rad per metre between the feet
+  double bend = 0.3;       ///< of elbows, rad
   double stoop = 0.05;     ///< of the trunk, rad
   double lively = 1.0;     ///< faster and wider if more
   double phase = 0;        ///< of swaying, rad

@@ -19,7 +19,10 @@ Visit draw_visit(const Room& room, const std::vector<int>& used, bool still, Ran
   if (still || room.pieces.empty() || random.uniform() < 0.12) return {};
   std::vector<double> weights;
   double sum = 0;
-  for (std::size_t i = 0; i < room.pieces.size(); ++i) weights.push_back(sum += room.pieces[i].idle ? 0.0 : 1.0 / (1.0 + 3.0 * used[i]));
+  for (std::size_t i = 0; i < room.pieces.size(); ++i) {
+    const double liked = room.pieces[i].idle ? 0.0 : room.pieces[i].object.superclass() == Superclass::sit ? 2.0 : 1.0;
+    weights.push_back(sum += liked / (1.0 + 3.0 * used[i]));
+  }
   if (sum == 0) return {};
   const double pick = random.uniform(0.0, sum);
   const int piece = static_cast<int>(std::upper_bound(weights.begin(), weights.end() - 1, pick) - weights.begin());
@@ -46,6 +49,8 @@ Vec2 free_place(const FloorPlan& plan, double clearance, Random& random) {
   return place;
 }
 
+const Piece* table_at(const Room& room, const Piece& seat) { return seat.table >= 0 ? &room.pieces[static_cast<std::size_t>(seat.table)] : nullptr; }
+
 /// Goes there and does it; false if there is no way.
 bool perform(Motion& motion, const Visit& visit, const Room& room, const FloorPlan& plan, const Body& body, const Manner& manner, Random& random) {
   if (visit.errand == Errand::wander) {
@@ -60,12 +65,12 @@ bool perform(Motion& motion, const Visit& visit, const Room& room, const FloorPl
     if (visit.errand == Errand::lie)
       lie(motion, body, manner, piece, sitting, random.uniform(2.0, 7.0), random);
     else
-      sit(motion, body, manner, piece, piece.table >= 0 ? &room.pieces[static_cast<std::size_t>(piece.table)] : nullptr, sitting, random.uniform(3.0, 11.0), random);
+      sit(motion, body, manner, piece, table_at(room, piece), sitting, random.uniform(2.5, 10.0), random);
     return true;
   }
   const bool table = piece.object.superclass() == Superclass::table, leans = visit.errand == Errand::lean;
   const Piece side = table ? from_side(piece, static_cast<int>(random.index(4))) : piece;
-  const double off = table ? random.uniform(0.2, 0.3) : piece.height < 1.2 ? random.uniform(0.28, 0.4) : random.uniform(0.36, 0.5);
+  const double off = table ? random.uniform(0.2, 0.3) : piece.height < 1.2 ? random.uniform(0.28, 0.4) : random.uniform(0.30, 0.46);
   if (!walk_to(motion, plan, body, manner, approach_to(side, random.uniform(-1.0, 1.0) * side.room, off, false))) return false;
   if (leans && side.surface > 0.6)
     lean(motion, body, manner, side, random.uniform(1.0, 4.0), random);
@@ -125,7 +130,8 @@ Motion live(const Room& room, const FloorPlan& plan, const Body& body, const std
   const auto length = static_cast<std::size_t>(std::ceil(seconds * kRate)) + 1;
   // a start may turn out to be a dead end, e.g. where another person will come by; then another one is tried
   for (int attempt = 0; attempt < 60; ++attempt) {
-    Motion motion = {{standing(body, free_place(plan, 0.4, random), random.uniform(-kPi, kPi)), Action::stand, {-1, -1}}};
+    const Approach start{free_place(plan, 0.4, random), random.uniform(-kPi, kPi)};
+    Motion motion = {{standing(body, start.at, start.heading), Action::stand, {-1, -1}}};
     std::vector<int> used(room.pieces.size(), 0);
     if (random.uniform() < 0.5) stand_about(motion, body, manner, random.uniform(0.5, 2.0), random);
     if (!possible(motion, 0, room, body, others)) continue;

@@ -48,7 +48,9 @@ Vec3 target_at(const Piece& piece, double right, double inside, double height) {
 Targets draw_targets(const Piece& piece, const Body& body, const Posture& base, Random& random) {
   double height = piece.surface + random.uniform(0.04, 0.12), inside = random.uniform(0.1, 0.3);
   if (piece.object.superclass() == Superclass::shelf) {
-    const auto& level = piece.levels[random.index(piece.levels.size())];
+    const auto& level = *std::min_element(piece.levels.begin(), piece.levels.end(), [&, wish = random.uniform(0.5, 1.6)](const auto& a, const auto& b) {
+      return std::abs(a[0] - wish) < std::abs(b[0] - wish);
+    });
     const bool on_top = piece.height < 1.2 && random.uniform() < 0.4;
     height = on_top ? piece.height + 0.06 : std::min(level[0] + random.uniform(0.08, 0.2), 1.12 * body.height);
     inside = on_top ? random.uniform(0.05, 0.15) : -random.uniform(0.02, 0.08);
@@ -68,12 +70,24 @@ bool arrives(const Body& body, const Posture& posture, const Targets& targets) {
   return true;
 }
 
+/// A step along the front of a piece, still facing it.
+void step_aside(Motion& motion, const Body& body, const Manner& manner, const Piece& piece, Random& random) {
+  const Posture& now = motion.back().posture;
+  Vec3 own = piece.placement.inverse() * now.pelvis;
+  own.x() = std::clamp(own.x() + random.uniform(-0.24, 0.24), -piece.half.x() + 0.1, piece.half.x() - 0.1);
+  const Vec2 from = now.pelvis.head<2>(), to = (piece.placement * own).head<2>();
+  const std::size_t first = motion.size();
+  if ((to - from).norm() < 0.25) walk(motion, body, manner, {from, to}, heading(now.hips));
+  for (std::size_t k = first; k < motion.size(); ++k) motion[k].action = Action::reach;
+}
+
 }  // namespace
 
 void reach(Motion& motion, const Body& body, const Manner& manner, const Piece& piece, Random& random) {
   const std::array<int, 2> touched = {-1, piece.object.id};
-  const Posture base = motion.back().posture;
-  for (int left = 1 + static_cast<int>(random.index(3)); left > 0; --left) {
+  const bool shelf = piece.object.superclass() == Superclass::shelf;
+  for (int left = 1 + static_cast<int>(random.index(shelf ? 4 : 3)); left > 0; --left) {
+    const Posture base = motion.back().posture;
     Targets targets = draw_targets(piece, body, base, random);
     Posture there = reaching(body, base, targets);
     for (int attempt = 0; attempt < 20 && !arrives(body, there, targets); ++attempt) {
@@ -89,10 +103,11 @@ void reach(Motion& motion, const Body& body, const Manner& manner, const Piece& 
     for (const int side : {kRight, kLeft})
       if (targets[side]) look.hands[side] = look.pelvis + look.chest * Vec3(outward(side) * 0.1, 0.27, 0.4 * body.trunk);
     look.head = looking_at(body, look, look.hands[targets[kRight] ? kRight : kLeft]);
-    move_to(motion, random.uniform() < 0.5 ? look : base, {time, Action::reach, touched});
-    if (random.uniform() < 0.5) hold(motion, random.uniform(0.3, 1.5), manner, Action::reach);
+    const bool looks = random.uniform() < (shelf ? 0.8 : 0.4);
+    move_to(motion, looks ? look : base, {time, Action::reach, touched});
+    if (looks) hold(motion, random.uniform(0.3, 2.0), manner, Action::reach);
+    if (left > 1 && random.uniform() < 0.4) step_aside(motion, body, manner, piece, random);
   }
-  move_to(motion, base, {0.7 / manner.lively, Action::reach});
 }
 
 void lean(Motion& motion, const Body& body, const Manner& manner, const Piece& table, double seconds, Random& random) {
@@ -103,7 +118,8 @@ void lean(Motion& motion, const Body& body, const Manner& manner, const Piece& t
   for (const int side : {kRight, kLeft}) targets[side] = target_at(table, middle + outward(side) * wide, inside, table.surface + 0.05);
   Posture there = reaching(body, base, targets);
   there.chest = there.chest * about_x(-random.uniform(0.05, 0.2));
-  there.head = about_z(heading(base.hips) + random.uniform(-0.6, 0.6)) * about_x(random.uniform(-0.5, 0.0));
+  there.head = about_z(heading(base.hips) + random.uniform(-0.6, 0.6));
+  there.head = there.head * about_x(random.uniform(-0.5, 0.0));
   move_to(motion, there, {random.uniform(0.9, 1.4) / manner.lively, Action::reach, touched});
   hold(motion, seconds, manner, Action::reach, touched);
   move_to(motion, base, {random.uniform(0.8, 1.2) / manner.lively, Action::reach, touched});

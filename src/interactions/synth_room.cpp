@@ -55,7 +55,7 @@ bool at_wall(Kind kind, Random& random) {
 
 /// A desk at a wall has its chair in front, so it fits only with the place for it.
 bool add_piece(Room& room, Kind kind, Random& random) {
-  for (int attempt = 0; attempt < 60; ++attempt) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
     Piece piece = draw_piece(kind, random);
     const bool wall = at_wall(kind, random);
     piece = placed(piece, draw_placement(room.floor, piece, wall, random));
@@ -100,7 +100,7 @@ bool add_coffee_table(Room& room, int couch, Random& random) {
 /// One piece, or several that belong together; never more than `most`.
 void add_group(Room& room, int most, Random& random) {
   constexpr Kind kinds[] = {Kind::couch, Kind::couch, Kind::armchair, Kind::desk, Kind::desk, Kind::dining_table, Kind::dining_table,
-                            Kind::shelf, Kind::shelf, Kind::shelf, Kind::sideboard, Kind::bed, Kind::bed, Kind::stool, Kind::stool,
+                            Kind::shelf, Kind::shelf, Kind::shelf, Kind::sideboard, Kind::bed, Kind::bed, Kind::bed, Kind::bed, Kind::bed, Kind::stool, Kind::stool,
                             Kind::chair, Kind::chair, Kind::coffee_table};
   const Kind kind = kinds[random.index(std::size(kinds))];
   const int index = static_cast<int>(room.pieces.size());
@@ -110,6 +110,26 @@ void add_group(Room& room, int most, Random& random) {
   if (kind == Kind::desk && chance < 0.85) add_seat_at(room, index, seat, random);
   if (kind == Kind::dining_table && chance < 0.7) add_seat_at(room, index, seat, random);
   if ((kind == Kind::couch || kind == Kind::armchair) && chance < 0.45) add_coffee_table(room, index, random);
+}
+
+/// How much pieces stand before each other as the camera sees them: shares of the width of the farther one.
+double hiding(const Room& room) {
+  std::vector<std::array<double, 3>> spans;  // azimuth from, to, and distance
+  for (const Piece& piece : room.pieces) {
+    std::array<double, 3> span = {kPi, -kPi, piece.placement.position.norm()};
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0}) {
+        const Vec3 corner = piece.placement * Vec3(x * piece.half.x(), y * piece.half.y(), 0);
+        const double azimuth = std::atan2(corner.x(), corner.y());
+        span = {std::min(span[0], azimuth), std::max(span[1], azimuth), span[2]};
+      }
+    spans.push_back(span);
+  }
+  double sum = 0;
+  for (const auto& near : spans)
+    for (const auto& far : spans)
+      if (near[2] < far[2]) sum += std::max(0.0, std::min(near[1], far[1]) - std::max(near[0], far[0])) / (far[1] - far[0]);
+  return sum;
 }
 
 }  // namespace
@@ -136,30 +156,6 @@ double ground_distance(const Piece& piece, const Vec2& p) {
   const Vec3 own = piece.placement.inverse() * Vec3(p.x(), p.y(), 0);
   return (own.head<2>().cwiseAbs() - piece.half).cwiseMax(0.0).norm();
 }
-
-namespace {
-
-/// How much pieces stand before each other as the camera sees them: shares of the width of the farther one.
-double hiding(const Room& room) {
-  std::vector<std::array<double, 3>> spans;  // azimuth from, to, and distance
-  for (const Piece& piece : room.pieces) {
-    std::array<double, 3> span = {kPi, -kPi, piece.placement.position.norm()};
-    for (const double x : {-1.0, 1.0})
-      for (const double y : {-1.0, 1.0}) {
-        const Vec3 corner = piece.placement * Vec3(x * piece.half.x(), y * piece.half.y(), 0);
-        const double azimuth = std::atan2(corner.x(), corner.y());
-        span = {std::min(span[0], azimuth), std::max(span[1], azimuth), span[2]};
-      }
-    spans.push_back(span);
-  }
-  double sum = 0;
-  for (const auto& near : spans)
-    for (const auto& far : spans)
-      if (near[2] < far[2]) sum += std::max(0.0, std::min(near[1], far[1]) - std::max(near[0], far[0])) / (far[1] - far[0]);
-  return sum;
-}
-
-}  // namespace
 
 Room draw_room(const View& view, int pieces, Random& random) {
   Room best;

@@ -38,7 +38,8 @@ Posture sitting(Way way, const Body& body, const Piece& piece, const Piece* tabl
   if (way == Way::forward) recline = -random.uniform(0.35, 0.7);
   if (way == Way::at_table) recline = -random.uniform(0.12, 0.35);
   Posture p = seated(body, piece, plan, feet, recline);
-  hands_on_lap(p, body, piece, plan, random.uniform(0.4, 0.7) - 0.6 * std::max(0.0, recline), random.uniform(0.05, 0.16));
+  const double far = random.uniform(0.4, 0.7), wide = random.uniform(0.05, 0.16);
+  hands_on_lap(p, body, piece, plan, far - 0.6 * std::max(0.0, recline), wide);
   const double facing = piece.placement.angle;
   switch (way) {
     case Way::forward:
@@ -46,8 +47,9 @@ Posture sitting(Way way, const Body& body, const Piece& piece, const Piece* tabl
       break;
     case Way::stretched:
       for (const int side : {kRight, kLeft}) {
-        const double down = p.pelvis.z() - body.ankle, far = std::sqrt(std::pow(random.uniform(0.88, 0.94) * body.leg(), 2) - down * down) - plan.into;
-        p.feet[side] = from_edge(piece, plan, outward(side) * random.uniform(0.05, 0.15), std::min(far, plan.off + 0.35), body.ankle);
+        const double down = p.pelvis.z() - body.ankle, leg = random.uniform(0.88, 0.94) * body.leg();
+        const double out = std::min(std::sqrt(leg * leg - down * down) - plan.into, plan.off + 0.35);
+        p.feet[side] = from_edge(piece, plan, outward(side) * random.uniform(0.05, 0.15), out, body.ankle);
       }
       break;
     case Way::crossed: {
@@ -56,7 +58,8 @@ Posture sitting(Way way, const Body& body, const Piece& piece, const Piece* tabl
       break;
     }
     case Way::turned: {
-      const double turn = (random.uniform() < 0.5 ? -1 : 1) * random.uniform(0.3, 0.75);
+      const int way_round = random.uniform() < 0.5 ? -1 : 1;
+      const double turn = way_round * random.uniform(0.3, 0.75);
       p.hips = about_z(facing + 0.3 * turn) * about_x(0.1);
       p.chest = about_z(facing + turn) * about_x(0.05);
       p.head = about_z(facing + 1.6 * turn);
@@ -132,7 +135,7 @@ void sit(Motion& motion, const Body& body, const Manner& manner, const Piece& pi
     const Way way = draw_way(piece, table, random);
     const bool at_table = way == Way::at_table || way == Way::to_table;
     const std::array<int, 2> touched = {id, at_table ? table->object.id : -1};
-    const double change = random.uniform(0.8, 1.5) / manner.lively, still = std::min(left, random.uniform(1.0, 5.0));
+    const double change = random.uniform(0.8, 1.5) / manner.lively, still = std::min(left, random.uniform(0.6, 4.0));
     move_to(motion, sitting(way, body, piece, table, plan, feet, random), {change, Action::sit, touched});
     hold(motion, still, manner, Action::sit, touched);
     left -= change + still;

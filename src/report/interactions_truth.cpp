@@ -53,8 +53,8 @@ Json joints_of(const Pose& pose) {
 
 std::string lifted_text(const Take& take) {
   Json frames = Json::array();
-  for (const auto& [frame, detections] : by_frame(take))
-    frames.push_back({{"frame", frame}, {"people", list_of(detections, [](const Detection* d, std::size_t) { return d->local ? joints_of(*d->local) : Json(nullptr); })}});
+  const auto pose_of = [](const Detection* d, std::size_t) { return d->local ? joints_of(*d->local) : Json(nullptr); };
+  for (const auto& [frame, detections] : by_frame(take)) frames.push_back({{"frame", frame}, {"people", list_of(detections, pose_of)}});
   return Json{{"frames", frames}}.dump() + "\n";
 }
 
@@ -118,8 +118,10 @@ std::string box_text(const OrientedBox& box, const RigidTransform& to_camera, st
 
 std::string actions_text(const std::vector<RecordedFrame>& frames) {
   std::string text;
-  for (const RecordedFrame& frame : frames)  // i3DB's word for standing up
-    text += fmt::format("{}\t{}\n", frame.frame, frame.action == Action::stand_up ? "standing(from sitting)" : kActions[static_cast<std::size_t>(frame.action)]);
+  for (const RecordedFrame& frame : frames) {
+    const char* name = frame.action == Action::stand_up ? "standing(from sitting)" : kActions[static_cast<std::size_t>(frame.action)];  // i3DB's word
+    text += fmt::format("{}\t{}\n", frame.frame, name);
+  }
   return text;
 }
 
