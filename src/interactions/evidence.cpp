@@ -88,7 +88,8 @@ std::map<std::size_t, double> weights(const EvidenceMap& map, const std::vector<
       if (object.superclass() == Superclass::other || object.parts.empty()) continue;
       const std::vector<std::size_t> cells = cells_of(map, footprint(object));
       for (const int turn : turns_of(object))
-        for (const std::size_t cell : cells) places.push_back((static_cast<std::size_t>(object.superclass()) * EvidenceMap::kTurns + static_cast<std::size_t>(turn)) * ground + cell);
+        for (const std::size_t cell : cells)
+          places.push_back((static_cast<std::size_t>(object.superclass()) * EvidenceMap::kTurns + static_cast<std::size_t>(turn)) * ground + cell);
     }
     std::sort(places.begin(), places.end());  // one vote counts once, though two of its objects be there
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -144,7 +145,8 @@ Picture picture_of(const EvidenceMap& map, int pixels_per_cell) {
       std::array<std::uint8_t, 3>& pixel = picture.pixels.emplace_back();
       for (std::size_t s = 0; s < kSuper; ++s) {
         float likeliest = 0;
-        for (std::size_t turn = 0; turn < EvidenceMap::kTurns; ++turn) likeliest = std::max(likeliest, map.probability[(s * EvidenceMap::kTurns + turn) * ground + cell]);
+        for (std::size_t turn = 0; turn < EvidenceMap::kTurns; ++turn)
+          likeliest = std::max(likeliest, map.probability[(s * EvidenceMap::kTurns + turn) * ground + cell]);
         pixel[s] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(likeliest, 0.0f, 1.0f)));
       }
     }
