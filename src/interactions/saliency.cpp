@@ -7,6 +7,7 @@
 #include <map>
 
 #include "interactions/motion_descriptor.h"
+#include "unseen/core/context.h"
 
 namespace unseen::interactions {
 namespace {
@@ -14,43 +15,50 @@ namespace {
 constexpr double kBandwidth = 0.2;         ///< m
 constexpr std::size_t kBlock = 256;        ///< scenelets compared with all others at a time
 
-using Table = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>;
+using Table = Eigen::MatrixXd;  // in single precision the order of sums, which depends on the machine, would show in the database
 
-/// A column a scenelet: its motion, scaled so that plain distances of columns are motion distances. Centred, which spares digits.
+/// A column a scenelet: its motion, scaled so that plain distances of columns are motion distances.
 Table motions(const std::vector<Scenelet>& scenelets) {
   const Eigen::Matrix<float, kDescriptorPoses, 1> scale = pose_weights().cwiseSqrt();
   Table columns(kJointLines * kDescriptorPoses, scenelets.size());
   for (std::size_t i = 0; i < scenelets.size(); ++i) {
     const Eigen::Matrix<float, kJointLines, kDescriptorPoses> scaled = scenelets[i].motion * scale.asDiagonal();
-    columns.col(static_cast<Eigen::Index>(i)) = scaled.reshaped();
+    columns.col(static_cast<Eigen::Index>(i)) = scaled.reshaped().cast<double>();
   }
-  columns.colwise() -= columns.rowwise().mean().eval();
   return columns;
 }
 
-/// A row a scenelet, a column a bin that any scenelet uses; `used` says which.
-Table layouts(const std::vector<Scenelet>& scenelets, std::vector<std::size_t>& used) {
-  for (std::size_t bin = 0; bin < scenelets.front().layout.size(); ++bin)
-    if (std::any_of(scenelets.begin(), scenelets.end(), [&](const Scenelet& s) { return s.layout[bin] > 0; })) used.push_back(bin);
-  Table rows(scenelets.size(), used.size());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i)
-    for (Eigen::Index j = 0; j < rows.cols(); ++j) rows(i, j) = scenelets[static_cast<std::size_t>(i)].layout[used[static_cast<std::size_t>(j)]];
-  return rows;
+constexpr Eigen::Index kBins = kGrid * kGrid, kOwn = static_cast<Eigen::Index>(kCategories.size()) * kBins;  ///< bins of categories
+constexpr Eigen::Index kAll = kOwn + 3 * kBins;  ///< and behind them those of superclasses: who sits does so on a chair here, a couch there
+
+/// What a scenelet has in a bin. Few bins are not empty.
+struct Entry {
+  Eigen::Index scenelet, bin;
+  double share;
+};
+
+std::vector<Entry> entries(const std::vector<Scenelet>& scenelets) {
+  std::vector<Entry> all;
+  for (std::size_t i = 0; i < scenelets.size(); ++i) {
+    Eigen::VectorXd shares = Eigen::VectorXd::Zero(kAll);
+    for (Eigen::Index bin = 0; bin < kOwn; ++bin) {
+      shares[bin] = static_cast<double>(scenelets[i].layout[static_cast<std::size_t>(bin)]);
+      const Superclass superclass = superclass_of(kCategories[static_cast<std::size_t>(bin / kBins)]);
+      if (superclass == Superclass::other) continue;
+      double& shared = shares[kOwn + static_cast<Eigen::Index>(superclass) * kBins + bin % kBins];
+      shared = std::max(shared, shares[bin]);
+    }
+    for (Eigen::Index bin = 0; bin < kAll; ++bin)
+      if (shares[bin] > 0) all.push_back({static_cast<Eigen::Index>(i), bin, shares[bin]});
+  }
+  return all;
 }
 
-/// The same by superclass (all but "other"): who sits does so on a chair here and on a couch there.
-Table superclass_layouts(const std::vector<Scenelet>& scenelets) {
-  constexpr Eigen::Index kBins = kGrid * kGrid;
-  Table rows = Table::Zero(static_cast<Eigen::Index>(scenelets.size()), 3 * kBins);
-  for (std::size_t category = 0; category < kCategories.size(); ++category) {
-    const Superclass superclass = superclass_of(kCategories[category]);
-    if (superclass == Superclass::other) continue;
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      auto block = rows.row(i).segment(static_cast<Eigen::Index>(superclass) * kBins, kBins);
-      block = block.cwiseMax(Eigen::Map<const Eigen::RowVectorXf>(&scenelets[static_cast<std::size_t>(i)].layout[category * kBins], kBins));
-    }
-  }
-  return rows;
+/// Weighted means of what scenelets have in each bin; a row a row of weights, which sum to 1.
+Table means(const Table& weights, const std::vector<Entry>& entries) {
+  Table mean = Table::Zero(weights.rows(), kAll);
+  for (const Entry& entry : entries) mean.col(entry.bin) += entry.share * weights.col(entry.scenelet);
+  return mean;
 }
 
 }  // namespace
@@ -71,31 +79,28 @@ std::vector<double> densities(const std::vector<Scenelet>& scenelets) {
 std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigma) {
   if (scenelets.empty()) return scenelets;
   const Table motion = motions(scenelets);
-  std::vector<std::size_t> used;
-  const Table layout = layouts(scenelets, used);
-  const Table by_superclass = superclass_layouts(scenelets);
-  const Eigen::RowVectorXf length2 = motion.colwise().squaredNorm();
+  const std::vector<Entry> layout = entries(scenelets);
+  const Eigen::RowVectorXd length2 = motion.colwise().squaredNorm();
   const std::vector<double> density = densities(scenelets);
-  const Eigen::VectorXf rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse().cast<float>();
-  const Eigen::RowVectorXf chance = rarity.transpose() * by_superclass / rarity.sum();
-  const auto count = static_cast<Eigen::Index>(scenelets.size());
-  for (Eigen::Index begin = 0; begin < count; begin += kBlock) {
-    const Eigen::Index rows = std::min<Eigen::Index>(kBlock, count - begin);
-    Table weight = -2.0f * motion.middleCols(begin, rows).transpose() * motion;  // becomes squared distances, then G / ρ
+  const Eigen::VectorXd rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse();
+  const Eigen::RowVectorXd chance = means(rarity.transpose() / rarity.sum(), layout).rightCols(kAll - kOwn);
+  parallel_blocks({}, scenelets.size(), kBlock, [&](std::size_t first, std::size_t end) {
+    const auto begin = static_cast<Eigen::Index>(first), rows = static_cast<Eigen::Index>(end - first);
+    Table weight = -2.0 * motion.middleCols(begin, rows).transpose() * motion;  // becomes squared distances, then G / ρ
     weight.rowwise() += length2;
     weight.colwise() += length2.segment(begin, rows).transpose().eval();
-    weight = (weight.array().max(0.0f) * static_cast<float>(-0.5 / (sigma * sigma))).exp().matrix() * rarity.asDiagonal();
-    const Eigen::VectorXf total = weight.rowwise().sum();
+    weight = (weight.array().max(0.0) * (-0.5 / (sigma * sigma))).exp().matrix() * rarity.asDiagonal();
+    const Eigen::VectorXd total = weight.rowwise().sum();
     weight = total.cwiseInverse().asDiagonal() * weight;
-    const Table h = weight * layout, by_motion = weight * by_superclass;
+    const Table h = means(weight, layout);
     for (Eigen::Index i = 0; i < rows; ++i) {
       Scenelet& scenelet = scenelets[static_cast<std::size_t>(begin + i)];
-      scenelet.saliency.assign(scenelet.layout.size(), 0.0f);
-      for (std::size_t j = 0; j < used.size(); ++j) scenelet.saliency[used[j]] = h(i, static_cast<Eigen::Index>(j));
-      const auto lift = (by_motion.row(i) - chance).array() / (1.0f + 1e-6f - chance.array());
-      scenelet.highest_saliency = std::clamp(static_cast<double>(lift.maxCoeff()), 0.0, 1.0);
+      scenelet.saliency.resize(static_cast<std::size_t>(kOwn));
+      for (Eigen::Index bin = 0; bin < kOwn; ++bin) scenelet.saliency[static_cast<std::size_t>(bin)] = static_cast<float>(h(i, bin));
+      const auto lift = (h.row(i).tail(kAll - kOwn) - chance).array() / (1.0 + 1e-9 - chance.array());
+      scenelet.highest_saliency = std::clamp(lift.maxCoeff(), 0.0, 1.0);
     }
-  }
+  });
   return scenelets;
 }
 
