@@ -207,6 +207,7 @@ void add_detections(SceneBuilder& scene, const Reconstruction& r, const Take& ta
   Json& seen = scene.add("skeleton", "detections", "Detections, in the camera");
   seen["element"] = "detection";
   seen["width"] = 2;
+  seen["steps"] = true;
   write_skeleton(scene, seen, frames, r.fps, joints);
   seen["quantities"].push_back(quantity("detection", "Detection", "label", scene.integers(std::vector<int>(most, -1))));
 }
