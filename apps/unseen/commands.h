@@ -24,6 +24,8 @@ Command add_planes(CLI::App& app, const std::string& shell_command);
 Command add_cuboids(CLI::App& app, const std::string& shell_command);
 Command add_collision(CLI::App& app, const std::string& shell_command);
 Command add_convert(CLI::App& app);
+Command add_scenelets_build(CLI::App& scenelets);
+Command add_scenelets_info(CLI::App& scenelets);
 Command add_stage(CLI::App& app);
 Command add_view(CLI::App& app);
 Command add_synth_planes(CLI::App& synth);

@@ -60,13 +60,15 @@ int main(int argc, char** argv) {
   CLI::App* evaluate = app.add_subcommand("evaluate", "Measure a result against truth");
   synth->require_subcommand(0, 1)->footer("Example:\n  unseen synth planes -o room --seed 7");
   evaluate->require_subcommand(0, 1)->footer("Example:\n  unseen evaluate planes OUT --truth house.obj");
+  CLI::App* scenelets = app.add_subcommand("scenelets", "Build or describe a database of short motions with the objects around them");
+  scenelets->require_subcommand(0, 1)->footer("Example:\n  unseen scenelets build office lobby -o people.bin");
   const std::string command = shell_command({argv, argv + argc});
   const std::vector<Command> commands = {add_planes(app, command), add_cuboids(app, command),
                                          add_collision(app, command), add_stage(app), add_convert(app),
                                          add_synth_planes(*synth), add_synth_cuboids(*synth), add_synth_collision(*synth), add_synth_interactions(*synth),
                                          add_evaluate_planes(*evaluate), add_evaluate_cuboids(*evaluate), add_evaluate_collision(*evaluate),
                                          add_evaluate_interactions(*evaluate),
-                                         add_view(app)};
+                                         add_scenelets_build(*scenelets), add_scenelets_info(*scenelets), add_view(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -50,9 +50,9 @@ void check(const Recording& recording) {
         throw InputError(recording.name, fmt::format("object {}, {}", object.id, part.name), "not a box", "one in metres, within 1 km, its axes at right angles");
 }
 
-void check(const SceneletOptions& o) {
-  for (const auto& [name, value] : {std::pair{"arc_length", o.arc_length}, {"step", o.step}, {"longest", o.longest}, {"motion_sigma", o.motion_sigma}})
-    if (!(value > 0)) throw InputError("scenelet options", name, fmt::format("{}", value), "above 0");
+void check(SceneletOptions options) {
+  OptionTable table = describe(options);
+  for (const Option& option : table.all()) table.set_text(option.name, option.text(), "scenelets");
 }
 
 bool same(const Scenelet& a, const Scenelet& b) {

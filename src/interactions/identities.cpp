@@ -8,11 +8,13 @@
 
 #include "interactions/identity_labels.h"
 #include "interactions/min_cost_flow.h"
+#include "unseen/core/error.h"
 
 namespace unseen::interactions {
 namespace {
 
 constexpr double kMust = 1e7;     ///< what it would cost to leave out a detection that has a label
+constexpr int kMostRounds = 40;    ///< in which paths part to find a first answer
 constexpr double kMostWork = 3e6;  ///< links looked at while labels are brought together; then the best answer so far is taken
 
 /// What everybody does: the detections of each path, by frame.
@@ -231,12 +233,72 @@ double total_cost(const Model& model, const Paths& paths) {
   return cost;
 }
 
+/// Takes an answer if all paths can be somebody and it is the best one so far. False if labels contradict the paths.
+bool accept(const Model& model, const Paths& paths, const std::vector<People>& possible, double cost, Search& s) {
+  const std::vector<int> path_of = match(possible);
+  if (path_of.empty()) return false;
+  if (cost >= s.least) return true;
+  s.least = cost;
+  s.best.assign(model.take.detections.size(), -1);
+  for (std::size_t p = 0; p < path_of.size(); ++p)
+    for (const int d : paths[static_cast<std::size_t>(path_of[p])]) s.best[static_cast<std::size_t>(d)] = static_cast<int>(p);
+  return true;
+}
+
+std::vector<People> who_can_be(const Model& model, const Allowed& allowed, const Paths& paths) {
+  std::vector<People> possible;
+  for (const std::vector<int>& path : paths) possible.push_back(who_can_be(model, allowed, path));
+  return possible;
+}
+
+/// Has the person who a path begins as leave it at the step where going over to another path costs least. False if nobody is in conflict.
+bool part(const Model& model, const Paths& paths, const std::vector<int>& path, Allowed& allowed) {
+  People who = (People{1} << model.take.people) - 1;
+  std::size_t begin = 0, end = 0;
+  int before = -1;
+  for (; end < path.size(); ++end) {
+    const auto d = static_cast<std::size_t>(path[end]);
+    const People next = who & allowed.detection[d] & ~busy(allowed, before, model.sightings.slot[d]);
+    if (next == 0) break;
+    if (is_known(model, allowed, path[end])) begin = end;
+    who = next;
+    before = model.sightings.slot[d];
+  }
+  if (end < begin + 1 || end == path.size()) return false;
+  std::size_t last = begin;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = begin; i < end; ++i)
+    for (const std::vector<int>& other : paths)
+      if (const double cost = &other == &path ? least : swap_cost(model, path, i, other); cost < least) {
+        least = cost;
+        last = i;
+      }
+  const People leaving = who & -who;
+  for (std::size_t i = begin; i < end; ++i) {
+    People& people = allowed.detection[static_cast<std::size_t>(path[i])];
+    if (const People left = i <= last ? people & leaving : people & ~leaving; left != 0) people = left;
+  }
+  return true;
+}
+
+/// A good answer, if not the best one, to measure others by: paths part where labels want it until all agree.
+void dive(const Model& model, Allowed allowed, Search& s) {
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Paths paths = Network(model, allowed).cheapest();
+    const std::vector<People> possible = who_can_be(model, allowed, paths);
+    if (accept(model, paths, possible, total_cost(model, paths), s)) return;
+    bool parted = false;
+    for (std::size_t i = 0; i < paths.size() && !parted; ++i) parted = possible[i] == 0 && part(model, paths, paths[i], allowed);
+    if (!parted) return;
+  }
+}
+
 /// Depth first: who must not be there comes last, for fixing somebody leads to an answer sooner.
 void search(const Model& model, const Allowed& allowed, Search& s) {
   std::size_t links = 0;
   for (const std::vector<Link>& from : model.links) links += from.size();
   s.work += static_cast<double>(links) + 1e4;
-  if (s.work > kMostWork && !s.best.empty()) return;
+  if (s.work > (s.best.empty() ? 10 : 1) * kMostWork) return;
   const Paths paths = Network(model, allowed).cheapest();
   std::size_t known = 0, kept = 0;
   for (const std::vector<int>& slots : allowed.fixed) known += slots.size();
@@ -245,15 +307,9 @@ void search(const Model& model, const Allowed& allowed, Search& s) {
   if (kept < known) return;
   const double cost = total_cost(model, paths);
   if (cost >= s.least) return;
-  std::vector<People> possible;
-  for (const std::vector<int>& path : paths) possible.push_back(who_can_be(model, allowed, path));
-  if (const std::vector<int> path_of = match(possible); !path_of.empty()) {
-    s.least = cost;
-    s.best.assign(model.take.detections.size(), -1);
-    for (std::size_t p = 0; p < path_of.size(); ++p)
-      for (const int d : paths[static_cast<std::size_t>(path_of[p])]) s.best[static_cast<std::size_t>(d)] = static_cast<int>(p);
-    return;
-  }
+  const std::vector<People> possible = who_can_be(model, allowed, paths);
+  if (accept(model, paths, possible, cost, s)) return;
+  if (s.best.empty()) dive(model, allowed, s);
   const Question question = question_of(model, allowed, paths, possible);
   if (question.detection < 0) return;
   search(model, with_fixed(allowed, model.sightings, question.detection, question.person), s);
@@ -269,6 +325,7 @@ std::vector<int> identify(const Take& take) {
   const Sightings sightings = sightings_of(take);
   Search result;
   search(model_of(take, sightings), allowed_by_labels(take, sightings), result);
+  if (result.best.empty()) throw InputError(take.name, "labels", "too many that contradict what is seen", "people who are where they are marked");
   return result.best;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "interactions/motion_descriptor.h"
+#include "unseen/core/context.h"
 
 namespace unseen::interactions {
 namespace {
@@ -14,17 +15,16 @@ namespace {
 constexpr double kBandwidth = 0.2;         ///< m
 constexpr std::size_t kBlock = 256;        ///< scenelets compared with all others at a time
 
-using Table = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>;
+using Table = Eigen::MatrixXd;  // in single precision the order of sums, which depends on the machine, would show in the database
 
-/// A column a scenelet: its motion, scaled so that plain distances of columns are motion distances. Centred, which spares digits.
+/// A column a scenelet: its motion, scaled so that plain distances of columns are motion distances.
 Table motions(const std::vector<Scenelet>& scenelets) {
   const Eigen::Matrix<float, kDescriptorPoses, 1> scale = pose_weights().cwiseSqrt();
   Table columns(kJointLines * kDescriptorPoses, scenelets.size());
   for (std::size_t i = 0; i < scenelets.size(); ++i) {
     const Eigen::Matrix<float, kJointLines, kDescriptorPoses> scaled = scenelets[i].motion * scale.asDiagonal();
-    columns.col(static_cast<Eigen::Index>(i)) = scaled.reshaped();
+    columns.col(static_cast<Eigen::Index>(i)) = scaled.reshaped().cast<double>();
   }
-  columns.colwise() -= columns.rowwise().mean().eval();
   return columns;
 }
 
@@ -34,7 +34,7 @@ Table layouts(const std::vector<Scenelet>& scenelets, std::vector<std::size_t>& 
     if (std::any_of(scenelets.begin(), scenelets.end(), [&](const Scenelet& s) { return s.layout[bin] > 0; })) used.push_back(bin);
   Table rows(scenelets.size(), used.size());
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
-    for (Eigen::Index j = 0; j < rows.cols(); ++j) rows(i, j) = scenelets[static_cast<std::size_t>(i)].layout[used[static_cast<std::size_t>(j)]];
+    for (Eigen::Index j = 0; j < rows.cols(); ++j) rows(i, j) = static_cast<double>(scenelets[static_cast<std::size_t>(i)].layout[used[static_cast<std::size_t>(j)]]);
   return rows;
 }
 
@@ -47,7 +47,7 @@ Table superclass_layouts(const std::vector<Scenelet>& scenelets) {
     if (superclass == Superclass::other) continue;
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       auto block = rows.row(i).segment(static_cast<Eigen::Index>(superclass) * kBins, kBins);
-      block = block.cwiseMax(Eigen::Map<const Eigen::RowVectorXf>(&scenelets[static_cast<std::size_t>(i)].layout[category * kBins], kBins));
+      block = block.cwiseMax(Eigen::Map<const Eigen::RowVectorXf>(&scenelets[static_cast<std::size_t>(i)].layout[category * kBins], kBins).cast<double>());
     }
   }
   return rows;
@@ -74,28 +74,27 @@ std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigm
   std::vector<std::size_t> used;
   const Table layout = layouts(scenelets, used);
   const Table by_superclass = superclass_layouts(scenelets);
-  const Eigen::RowVectorXf length2 = motion.colwise().squaredNorm();
+  const Eigen::RowVectorXd length2 = motion.colwise().squaredNorm();
   const std::vector<double> density = densities(scenelets);
-  const Eigen::VectorXf rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse().cast<float>();
-  const Eigen::RowVectorXf chance = rarity.transpose() * by_superclass / rarity.sum();
-  const auto count = static_cast<Eigen::Index>(scenelets.size());
-  for (Eigen::Index begin = 0; begin < count; begin += kBlock) {
-    const Eigen::Index rows = std::min<Eigen::Index>(kBlock, count - begin);
-    Table weight = -2.0f * motion.middleCols(begin, rows).transpose() * motion;  // becomes squared distances, then G / ρ
+  const Eigen::VectorXd rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse();
+  const Eigen::RowVectorXd chance = rarity.transpose() * by_superclass / rarity.sum();
+  parallel_blocks({}, scenelets.size(), kBlock, [&](std::size_t first, std::size_t end) {
+    const auto begin = static_cast<Eigen::Index>(first), rows = static_cast<Eigen::Index>(end - first);
+    Table weight = -2.0 * motion.middleCols(begin, rows).transpose() * motion;  // becomes squared distances, then G / ρ
     weight.rowwise() += length2;
     weight.colwise() += length2.segment(begin, rows).transpose().eval();
-    weight = (weight.array().max(0.0f) * static_cast<float>(-0.5 / (sigma * sigma))).exp().matrix() * rarity.asDiagonal();
-    const Eigen::VectorXf total = weight.rowwise().sum();
+    weight = (weight.array().max(0.0) * (-0.5 / (sigma * sigma))).exp().matrix() * rarity.asDiagonal();
+    const Eigen::VectorXd total = weight.rowwise().sum();
     weight = total.cwiseInverse().asDiagonal() * weight;
     const Table h = weight * layout, by_motion = weight * by_superclass;
     for (Eigen::Index i = 0; i < rows; ++i) {
       Scenelet& scenelet = scenelets[static_cast<std::size_t>(begin + i)];
       scenelet.saliency.assign(scenelet.layout.size(), 0.0f);
-      for (std::size_t j = 0; j < used.size(); ++j) scenelet.saliency[used[j]] = h(i, static_cast<Eigen::Index>(j));
-      const auto lift = (by_motion.row(i) - chance).array() / (1.0f + 1e-6f - chance.array());
-      scenelet.highest_saliency = std::clamp(static_cast<double>(lift.maxCoeff()), 0.0, 1.0);
+      for (std::size_t j = 0; j < used.size(); ++j) scenelet.saliency[used[j]] = static_cast<float>(h(i, static_cast<Eigen::Index>(j)));
+      const auto lift = (by_motion.row(i) - chance).array() / (1.0 + 1e-9 - chance.array());
+      scenelet.highest_saliency = std::clamp(lift.maxCoeff(), 0.0, 1.0);
     }
-  }
+  });
   return scenelets;
 }
 

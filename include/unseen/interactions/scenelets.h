@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "unseen/core/context.h"
+#include "unseen/core/options.h"
 #include "unseen/interactions/types.h"
 
 namespace unseen::interactions {
@@ -47,10 +48,14 @@ struct SceneletOptions {
   double motion_sigma = 0.13;  ///< m, of the Gaussian in motion distance
 };
 
-/// Cuts recordings into scenelets, with descriptors and saliency (over all of them together).
+/// The one description of these options; the table points into `options`.
+OptionTable describe(SceneletOptions& options);
+
+/// Cuts recordings into scenelets, with descriptors and saliency (over all of them together). Throws InputError (the recording's name)
+/// for frames out of order, what is not finite or farther than 1 km, and boxes that are none.
 Database build_database(const std::vector<Recording>& recordings, const SceneletOptions& options, Context& context);
 
-/// One database of several; saliency is computed anew over all.
+/// One database of several, each recording once; saliency is computed anew over all.
 Database join(const std::vector<Database>& databases, const SceneletOptions& options);
 
 /// The 14 distances of joints to lines of a pose, m (thesis Section 6.2.2.1): knees to hip–ankle, elbows to shoulder–wrist, hips to

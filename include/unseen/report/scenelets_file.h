@@ -22,4 +22,7 @@ interactions::Database read_database(const std::filesystem::path& path);
 /// The same from memory; `source` names it in messages.
 interactions::Database parse_database(std::string_view bytes, const std::string& source);
 
+/// The database that comes with the program: data/scenelets.bin, which `unseen scenelets build --synth 40` makes again.
+const interactions::Database& shipped_database();
+
 }  // namespace unseen::report
