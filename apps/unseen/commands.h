@@ -23,6 +23,7 @@ struct Command {
 Command add_planes(CLI::App& app, const std::string& shell_command);
 Command add_cuboids(CLI::App& app, const std::string& shell_command);
 Command add_collision(CLI::App& app, const std::string& shell_command);
+Command add_interactions(CLI::App& app, const std::string& shell_command);
 Command add_convert(CLI::App& app);
 Command add_scenelets_build(CLI::App& scenelets);
 Command add_scenelets_info(CLI::App& scenelets);

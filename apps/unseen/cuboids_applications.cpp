@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "unseen/core/error.h"
 #include "unseen/io/mesh.h"
@@ -108,18 +106,9 @@ void retrieve(const ApplicationFlags& flags, const cuboids::Completion& scene, c
   io::write_points(out.file("retrieved.ply"), cloud, context);
 }
 
-std::string read_text(const fs::path& path) {
-  std::error_code code;
-  const std::uintmax_t size = fs::file_size(path, code);
-  if (code) throw InputError(path.string(), "", code.message(), "a file that can be read");
-  if (size > kLargestEdits) throw InputError(path.string(), "size", fmt::format("{} bytes", size), "at most 1 MB");
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void edit(const std::string& path, const RgbdFrame& frame, const cuboids::Completion& scene, const io::OutputFolder& out,
           Context& context) {
-  const auto edits = report::parse_photo_edits(read_text(path), path);
+  const auto edits = report::parse_photo_edits(read_text(path, kLargestEdits), path);
   const cuboids::EditedPhoto edited = cuboids::edit_photo(frame, scene, edits, {}, context);
   io::write_color_png(out.file("edited.png"), edited.width, edited.height, edited.pixels);
 }

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "cuboids.h"
+#include "interactions.h"
 #include "session.h"
 #include "unseen/collision/options.h"
 #include "unseen/collision/overlay.h"
@@ -24,6 +25,9 @@
 #include "unseen/report/collision_shot.h"
 #include "unseen/report/cuboids_result.h"
 #include "unseen/report/cuboids_scene.h"
+#include "unseen/report/interactions_result.h"
+#include "unseen/report/interactions_scene.h"
+#include "unseen/report/interactions_take.h"
 #include "unseen/report/page.h"
 #include "unseen/report/planes_scene.h"
 #include "write_text.h"
@@ -132,6 +136,24 @@ Shown collision_result(const std::filesystem::path& folder, const report::Stored
   return {report::collision_title(run.input), report::collision_scene(r, run.input, table, command, shot, pictures)};
 }
 
+Shown interactions_result(const std::filesystem::path& folder, const report::StoredRun& run, Context& context) {
+  interactions::Reconstruction r = report::read_interactions_result(folder / "result.json");
+  InteractionsOptions options;
+  OptionTable table = options.table();
+  const std::string command = command_of(run, folder.string(), table);
+  std::vector<interactions::Take> takes;
+  try {  // without the take the page does not show what the detector saw, and says so
+    check_input(run.input, context);
+    takes.push_back(report::read_take(run.input.path));
+  } catch (const InputError& error) {
+    r.summary.warnings.push_back(fmt::format("shown without the detections: {}", error.what()));
+    context.warn(r.summary.warnings.back());
+  }
+  const std::filesystem::path evidence = folder / "evidence.png";
+  const std::string picture = std::filesystem::exists(evidence) ? read_text(evidence, kLargestPicture) : "";
+  return {report::interactions_title(run.input), report::interactions_scene(r, run.input, table, command, takes, picture)};
+}
+
 Shown read_result(const std::string& out, Context& context) {
   const std::filesystem::path folder(out), file = folder / "result.json";
   if (!std::filesystem::is_directory(folder)) throw InputError(out, "folder", "none", "the folder of a result");
@@ -140,7 +162,8 @@ Shown read_result(const std::string& out, Context& context) {
   if (run.capability == "planes") return planes_result(folder, run, context);
   if (run.capability == "cuboids") return cuboids_result(folder, run, context);
   if (run.capability == "collision") return collision_result(folder, run, context);
-  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\", \"cuboids\" or \"collision\"");
+  if (run.capability == "interactions") return interactions_result(folder, run, context);
+  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\", \"cuboids\", \"collision\" or \"interactions\"");
 }
 
 /// Shows a file in what the desktop opens pages with.

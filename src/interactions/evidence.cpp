@@ -79,10 +79,10 @@ std::vector<std::size_t> cells_of(const EvidenceMap& map, const std::vector<Poly
 }
 
 /// The weight of a moment's votes at each place of the map that any of them covers.
-std::map<std::size_t, double> weights(const EvidenceMap& map, const std::vector<const Vote*>& votes) {
+std::map<std::size_t, double> weights(const EvidenceMap& map, const std::vector<const Evidence*>& votes) {
   const auto ground = static_cast<std::size_t>(map.rows * map.columns);
   std::map<std::size_t, double> weight;
-  for (const Vote* vote : votes) {
+  for (const Evidence* vote : votes) {
     std::vector<std::size_t> places;
     for (const Object& object : vote->objects) {
       if (object.superclass() == Superclass::other || object.parts.empty()) continue;
@@ -100,10 +100,10 @@ std::map<std::size_t, double> weights(const EvidenceMap& map, const std::vector<
 
 }  // namespace
 
-EvidenceMap gather(std::span<const Vote> votes, std::span<const Vec2> walked, int at_least) {
-  std::map<int, std::vector<const Vote*>> moments;
+EvidenceMap gather(std::span<const Evidence> votes, std::span<const Vec2> walked, int at_least) {
+  std::map<int, std::vector<const Evidence*>> moments;
   std::vector<Vec2> places(walked.begin(), walked.end());
-  for (const Vote& vote : votes) {
+  for (const Evidence& vote : votes) {
     moments[vote.moment].push_back(&vote);
     if (walked.empty())
       for (const Object& object : vote.objects) places.emplace_back(object.center().head<2>());
@@ -113,7 +113,7 @@ EvidenceMap gather(std::span<const Vote> votes, std::span<const Vec2> walked, in
   std::map<std::size_t, std::vector<double>> shares;
   for (const auto& [moment, cast] : moments) {
     double total = 0;
-    for (const Vote* vote : cast) total += vote->weight;
+    for (const Evidence* vote : cast) total += vote->weight;
     if (!(total > 0)) continue;
     for (const auto& [place, weight] : weights(map, cast)) shares[place].push_back(weight / total);
   }
@@ -132,25 +132,6 @@ EvidenceMap gather(std::span<const Vote> votes, std::span<const Vec2> walked, in
     map.probability[place] = static_cast<float>(std::clamp(sum / static_cast<double>(most), 0.0, 1.0) * free[place % ground]);
   }
   return map;
-}
-
-Picture picture_of(const EvidenceMap& map, int pixels_per_cell) {
-  const int scale = std::max(pixels_per_cell, 1);
-  Picture picture = {map.columns * scale, map.rows * scale, {}};
-  picture.pixels.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  const auto ground = static_cast<std::size_t>(map.rows * map.columns);
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const auto cell = static_cast<std::size_t>((map.rows - 1 - y / scale) * map.columns + x / scale);
-      std::array<std::uint8_t, 3>& pixel = picture.pixels.emplace_back();
-      for (std::size_t s = 0; s < kSuper; ++s) {
-        float likeliest = 0;
-        for (std::size_t turn = 0; turn < EvidenceMap::kTurns; ++turn)
-          likeliest = std::max(likeliest, map.probability[(s * EvidenceMap::kTurns + turn) * ground + cell]);
-        pixel[s] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(likeliest, 0.0f, 1.0f)));
-      }
-    }
-  return picture;
 }
 
 }  // namespace unseen::interactions

@@ -2,8 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -12,7 +10,7 @@
 namespace unseen::interactions {
 
 /// A scenelet that matches the take at a moment, with its objects in the world; it may have none, which is a vote too.
-struct Vote {
+struct Evidence {
   int moment = 0;     ///< frame; votes of one moment share what it has to say
   double weight = 0;  ///< how well it matches, in any unit
   std::vector<Object> objects;
@@ -24,14 +22,6 @@ struct Vote {
 /// what the matches themselves hold likely, neither more for a long stay nor less for a short one.
 /// Turns count from +y, counter-clockwise, and are where an object's front looks: away from its back; without a back they are all that its
 /// largest part's shape allows, two, or four if that is nearly square. `walked`: the pelvis on the ground, of upright people only.
-EvidenceMap gather(std::span<const Vote> votes, std::span<const Vec2> walked, int at_least);
-
-struct Picture {
-  int width = 0, height = 0;
-  std::vector<std::array<std::uint8_t, 3>> pixels;  ///< sRGB, row by row; +y is up
-};
-
-/// The map from above, the likeliest turn of each cell: seats red, tables green, shelves blue, on black.
-Picture picture_of(const EvidenceMap& map, int pixels_per_cell);
+EvidenceMap gather(std::span<const Evidence> votes, std::span<const Vec2> walked, int at_least);
 
 }  // namespace unseen::interactions

@@ -106,7 +106,7 @@ Json focus_of(const Eigen::AlignedBox3d& reach) {
 }  // namespace
 
 std::string interactions_scene(const Reconstruction& r, const InputRecord& input, const OptionTable& options, const std::string& command,
-                               const std::vector<Take>& takes) {
+                               const std::vector<Take>& takes, const std::string& evidence_png) {
   SceneBuilder scene(Vec3::Zero());
   Json& header = scene.header;
   header["title"] = interactions_title(input);
@@ -115,6 +115,7 @@ std::string interactions_scene(const Reconstruction& r, const InputRecord& input
   if (const Eigen::AlignedBox3d reach = reach_of(r); !reach.isEmpty()) header["focus"] = focus_of(reach);
   header["facts"] = facts_of(r);
   add_floor(scene, r);
+  if (!evidence_png.empty()) add_evidence(scene, r.evidence, evidence_png, kEvidencePixels);
   add_objects(scene, r);
   add_people(scene, r);
   add_paths(scene, r);

@@ -104,6 +104,21 @@ void add_floor(SceneBuilder& scene, const Reconstruction& r) {
   floor["cell"] = kFloorCell;
 }
 
+void add_evidence(SceneBuilder& scene, const EvidenceMap& map, const std::string& png, int pixels_per_cell) {
+  constexpr double kAbove = 0.005;  // m, so that it is not lost in the grid
+  Json& image = scene.add("image", "evidence-picture", "Evidence from above: where furniture stands");
+  image["width"] = map.columns * pixels_per_cell;
+  image["height"] = map.rows * pixels_per_cell;
+  image["format"] = "image/png";
+  image["data"] = scene.bytes(png);
+  Json& floor = scene.add("floor", "evidence", "Evidence, on the floor");
+  floor["visible"] = false;
+  floor["low"] = {number(map.origin.x()), number(map.origin.y())};
+  floor["high"] = {number(map.origin.x() + map.columns * map.cell), number(map.origin.y() + map.rows * map.cell)};
+  floor["height"] = kAbove;
+  floor["image"] = "evidence-picture";
+}
+
 void add_objects(SceneBuilder& scene, const Reconstruction& r) {
   std::vector<Vec3> centers, sizes;
   std::vector<float> rotations, confidence;
@@ -207,6 +222,7 @@ void add_detections(SceneBuilder& scene, const Reconstruction& r, const Take& ta
   Json& seen = scene.add("skeleton", "detections", "Detections, in the camera");
   seen["element"] = "detection";
   seen["width"] = 2;
+  seen["steps"] = true;
   write_skeleton(scene, seen, frames, r.fps, joints);
   seen["quantities"].push_back(quantity("detection", "Detection", "label", scene.integers(std::vector<int>(most, -1))));
 }

@@ -21,6 +21,8 @@ Eigen::AlignedBox3d reach_of(const interactions::Reconstruction& r);
 
 /// The parts of an interactions page (docs/scene.md), each a structure.
 void add_floor(SceneBuilder& scene, const interactions::Reconstruction& r);
+/// A picture that lies on the floor once it is switched on.
+void add_evidence(SceneBuilder& scene, const interactions::EvidenceMap& map, const std::string& png, int pixels_per_cell);
 void add_objects(SceneBuilder& scene, const interactions::Reconstruction& r);
 void add_people(SceneBuilder& scene, const interactions::Reconstruction& r);
 /// A segment of the pelvis path between two neighbouring frames.

@@ -17,6 +17,22 @@ struct PageSample {
   Take take;
 };
 
+/// Each object's confidence where it stands.
+inline EvidenceMap map_of(const std::vector<FoundObject>& objects) {
+  EvidenceMap map;
+  map.origin = Vec2(-4, 0);
+  map.columns = map.rows = 80;
+  map.probability.assign(std::size_t{3} * EvidenceMap::kTurns * 6400, 0.0f);
+  for (const FoundObject& found : objects)
+    for (int cell = 0; cell < 6400; ++cell)
+      for (const Part& part : found.object.parts) {
+        const Vec3 at(map.origin.x() + map.cell * (cell % 80 + 0.5), map.origin.y() + map.cell * (cell / 80 + 0.5), part.box.center.z());
+        const auto place = static_cast<std::size_t>(found.object.superclass()) * EvidenceMap::kTurns * 6400 + static_cast<std::size_t>(cell);
+        if (found.object.superclass() != Superclass::other && part.box.contains(at)) map.probability[place] = static_cast<float>(found.confidence);
+      }
+  return map;
+}
+
 inline PageSample page_sample(int people = 1, double seconds = 24, int seed = 4) {
   SynthOptions options;
   options.people = people;
@@ -61,6 +77,7 @@ inline PageSample page_sample(int people = 1, double seconds = 24, int seed = 4)
     }
     r.people.push_back(std::move(person));
   }
+  r.evidence = map_of(r.objects);
   r.summary.counts = {{"frames", r.people.front().frames.size()}, {"objects", r.objects.size()}};
   r.summary.seconds = {{"match", 12.0}, {"scene", 3.0}};
   return s;

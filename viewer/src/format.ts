@@ -85,7 +85,10 @@ export interface SkeletonStructure extends Base {
   joints: ArrayRef;
   bones: ArrayRef;
   joint_count: number;
+  /** px */
   width?: number;
+  /** Shown as at the nearest time: who is who differs between times. */
+  steps?: boolean;
 }
 export interface CameraStructure extends Base {
   kind: 'camera';

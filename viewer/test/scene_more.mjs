@@ -105,10 +105,22 @@ export function interactionsScene() {
     time: { start: 0, end: 3 }, facts: [{ name: 'people', value: '1' }, { name: 'furniture', value: '2' }],
     structures: [
       { id: 'people', kind: 'skeleton', name: 'People', visible: true, times: b.plain(times), joints: b.plain(joints, 3), bones: b.plain([0, 1, 1, 2, 1, 3, 1, 4, 0, 5, 0, 6], 2, 'u32'), joint_count: 7 },
-      { id: 'furniture', kind: 'boxes', name: 'Furniture', visible: true, centers: b.plain([0.9, 0, 0.25, -0.5, 1.2, 0.4], 3), rotations: b.plain([1, 0, 0, 0, 1, 0, 0, 0], 4), sizes: b.plain([0.6, 0.6, 0.5, 1.4, 0.6, 0.8], 3),
+      { id: 'floor', kind: 'floor', name: 'Floor', visible: true, low: [-2, -3], high: [2, 2], height: 0, cell: 1 },
+      { id: 'evidence-picture', kind: 'image', name: 'Evidence', width: 8, height: 8, format: 'image/png', data: b.plain(png(8, 8, (x, y) => (x < 4 && y < 4 ? [0, 114, 178] : [0, 0, 0])), 1, 'u8') },
+      { id: 'evidence', kind: 'floor', name: 'Evidence on the floor', visible: false, low: [-1, -1], high: [1, 1], height: 0.005, image: 'evidence-picture' },
+      // A chair of seat and back, and a table.
+      { id: 'furniture', kind: 'boxes', name: 'Furniture', visible: true, element: 'piece', labels: ['chair 0.90', 'table 0.70'], centers: b.plain([0.9, 0, 0.25, 1.15, 0, 0.75, -0.5, 1.2, 0.4], 3),
+        rotations: b.plain([1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0], 4), sizes: b.plain([0.6, 0.6, 0.5, 0.1, 0.6, 0.5, 1.4, 0.6, 0.8], 3), of: b.plain([0, 0, 1], 1, 'i32'),
         quantities: [{ id: 'class', name: 'Class', kind: 'label', array: b.plain([0, 1], 1, 'i32'), names: ['chair', 'table'] }] },
+      // What the camera sees: two people whose order changes from time to time.
+      { id: 'camera', kind: 'camera', name: 'Camera', visible: true, T_world_camera: pose([0, -2.5, 1.5]), fx: 300, fy: 300, cx: 160, cy: 120, width: 320, height: 240 },
+      { id: 'seen', kind: 'skeleton', name: 'Detections', visible: true, width: 2, steps: true, times: b.plain([0, 1]), joints: b.plain([-1, 0, 0, -1, 0, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1, -1, 0, 0, -1, 0, 1], 3), bones: b.plain([0, 1], 2, 'u32'), joint_count: 2 },
     ],
-    tables: [{ title: 'Furniture', structure: 'furniture', columns: [{ name: 'item' }, { name: 'class' }], rows: [[0, 'chair'], [1, 'table']] }],
+    charts: [{ title: 'Likelihood', x: { name: 'time', unit: 's', seconds: 1 }, y: { name: 'likelihood', high: 1 },
+      series: [{ name: 'person', color: 4, line: true, x: b.plain(times), y: b.plain(times.map((t) => (t > 0.85 && t < 0.95 ? NaN : t > 2 ? 0.9 : 0.1))) }],
+      spans: [{ from: 0.2, to: 0.8, name: 'chair', color: 4, weight: 0.3, elements: { structure: 'furniture', indices: [0] } }, { from: 2, to: 3, name: 'chair', color: 4, weight: 0.9, elements: { structure: 'furniture', indices: [0] } },
+              { from: 1, to: 1.5, name: 'no object', color: 5, weight: 0.5 }] }],
+    tables: [{ title: 'Furniture', structure: 'furniture', columns: [{ name: 'category' }, { name: 'confidence', digits: 2 }], rows: [['chair', 0.9], ['table', 0.7]] }],
   }), b);
 }
 

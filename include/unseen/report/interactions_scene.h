@@ -15,8 +15,11 @@ namespace unseen::report {
 /// confidence, the people in motion, the paths of their pelvises, the camera with what its detector saw, the likelihood of an interaction over time
 /// with the windows that prove objects, the evidence map on the floor, tables, and how it was made. `command` is the command line
 /// that gives the same result. Of no take, or of several (their frames have the same numbers), the detections are left out.
+/// `evidence_png`: the bytes of evidence.png, kEvidencePixels a cell of the map; empty = there is none.
 std::string interactions_scene(const interactions::Reconstruction& reconstruction, const InputRecord& input, const OptionTable& options,
-                               const std::string& command, const std::vector<interactions::Take>& takes);
+                               const std::string& command, const std::vector<interactions::Take>& takes, const std::string& evidence_png);
+
+inline constexpr int kEvidencePixels = 6;
 
 /// "Interactions of lounge.json"; of a take.json its folder is named.
 std::string interactions_title(const InputRecord& input);

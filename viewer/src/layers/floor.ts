@@ -4,9 +4,31 @@
 import * as THREE from 'three';
 import type { FloorStructure } from '../format';
 import { FatLines } from '../view/fat_lines';
-import { ElementTable } from '../view/shared';
+import { ElementTable, kClip } from '../view/shared';
 import { ImageLayer } from './camera';
 import { Layer, type LayerContext, type Look } from './layer';
+
+const kVertex = /* glsl */ `
+out vec2 vPlace; out vec3 vWorld;
+void main() {
+  vPlace = uv;
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  vWorld = world.xyz;
+  gl_Position = projectionMatrix * viewMatrix * world;
+}`;
+
+const kFragment = /* glsl */ `
+precision highp float;
+in vec2 vPlace; in vec3 vWorld;
+uniform sampler2D uImage;
+out vec4 color;
+${kClip}
+void main() {
+  vec3 light = texture(uImage, vPlace).rgb;
+  float most = max(light.r, max(light.g, light.b));
+  if (most < 0.004 || cut(vWorld)) discard;
+  color = vec4(light / most, 0.9 * most);
+}`;
 
 export class FloorLayer extends Layer {
   private readonly table = new ElementTable(1);
@@ -17,7 +39,7 @@ export class FloorLayer extends Layer {
     this.bounds.set(new THREE.Vector3(x0, y0, z), new THREE.Vector3(x1, y1, z));
     if (structure.cell) this.object.add(this.grid(context, [x0, y0, x1, y1], z, structure.cell).object);
     const image = context.layers.get(structure.image ?? '');
-    if (image instanceof ImageLayer) this.object.add(this.picture([x0, y0, x1, y1], z, image));
+    if (image instanceof ImageLayer) this.object.add(this.picture(context, [x0, y0, x1, y1], z, image));
   }
 
   private grid(context: LayerContext, [x0, y0, x1, y1]: [number, number, number, number], z: number, cell: number): FatLines {
@@ -32,13 +54,14 @@ export class FloorLayer extends Layer {
     return lines;
   }
 
-  /** Its first row lies at the far end (high y), as the scene looks from above. */
-  private picture([x0, y0, x1, y1]: [number, number, number, number], z: number, image: ImageLayer): THREE.Mesh {
+  /** Its first row lies at the far end (high y), as the scene looks from above. Black is clear. */
+  private picture(context: LayerContext, [x0, y0, x1, y1]: [number, number, number, number], z: number, image: ImageLayer): THREE.Mesh {
     const g = new THREE.BufferGeometry();
     g.setAttribute('position', new THREE.BufferAttribute(new Float32Array([x0, y0, z, x1, y0, z, x1, y1, z, x0, y1, z]), 3));
     g.setAttribute('uv', new THREE.BufferAttribute(new Float32Array([0, 0, 1, 0, 1, 1, 0, 1]), 2));
     g.setIndex([0, 1, 2, 0, 2, 3]);
-    const material = new THREE.MeshBasicMaterial({ map: image.texture, side: THREE.DoubleSide, toneMapped: false, transparent: true, opacity: 0.9, depthWrite: false });
+    const material = new THREE.ShaderMaterial({ glslVersion: THREE.GLSL3, vertexShader: kVertex, fragmentShader: kFragment, side: THREE.DoubleSide, transparent: true, depthWrite: false,
+      uniforms: { ...context.shared.all(), uImage: { value: image.texture } } });
     const mesh = new THREE.Mesh(g, material);
     mesh.frustumCulled = false;
     return mesh;

@@ -16,6 +16,7 @@ export class SkeletonLayer extends ColoredLayer {
   private readonly bones: ArrayLike<number>;
   private readonly jointCount: number;
   private readonly width: number;  // px
+  private readonly steps: boolean;
   private readonly lines: FatLines;
   private segments = new Float32Array(0);
   private owner: number[] = [];
@@ -28,6 +29,7 @@ export class SkeletonLayer extends ColoredLayer {
     this.bones = model.stored(structure.bones);
     this.jointCount = structure.joint_count;
     this.width = structure.width ?? 5;
+    this.steps = structure.steps ?? false;
     this.lines = new FatLines(shared, this.table, { width: this.width, bias: 1e-4 });
     this.object.add(this.lines.object);
     const p = new THREE.Vector3();
@@ -37,7 +39,8 @@ export class SkeletonLayer extends ColoredLayer {
 
   override update(look: Look) {
     super.update(look);
-    const { i, f } = stepAt(this.times, look.time);
+    const { i, f: between } = stepAt(this.times, look.time);
+    const f = this.steps ? Math.round(between) : between;
     const n = this.times.length;
     const joint = (person: number, j: number): number[] | null => {
       const a = 3 * ((person * n + i) * this.jointCount + j), b = 3 * ((person * n + Math.min(n - 1, i + 1)) * this.jointCount + j);

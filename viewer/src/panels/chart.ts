@@ -47,7 +47,10 @@ export function chartPanel(app: App, view: SceneView, chart: Chart): HTMLElement
     s('text', { x: kWidth - kRight, y: kHeight - 3, 'text-anchor': 'end' }, chart.x.name),
   ];
   const crosses = marks.map((m) => s('line', { x1: x(m.x), x2: x(m.x), y1: kTop, y2: kHeight - kBottom, class: 'mark' }, s('title', {}, `${m.name}: ${chart.x.name} ${number(m.x)}`)));
-  const stretches = spans.map((p) => s('rect', { x: x(p.from).toFixed(1), width: Math.max(1.5, x(p.to) - x(p.from)).toFixed(1), y: kTop, height: kHeight - kTop - kBottom, fill: css(labelColor(p.color)), class: 'span' }, s('title', {}, p.name)));
+  // Stretches of a colour lie in a lane of their own.
+  const colors = [...new Set(spans.map((p) => p.color))].sort((a, b) => a - b);
+  const lane = (kHeight - kTop - kBottom) / Math.max(1, colors.length);
+  const stretches = spans.map((p) => s('rect', { x: x(p.from).toFixed(1), width: Math.max(1.5, x(p.to) - x(p.from)).toFixed(1), y: (kTop + lane * colors.indexOf(p.color)).toFixed(1), height: lane.toFixed(1), fill: css(labelColor(p.color)), class: 'span' }, s('title', {}, p.name)));
   const dots = series.map((c) => {
     const color = css(labelColor(c.color));
     if (c.line) return s('path', { d: linePath(c.xs, c.ys, x, y), fill: 'none', stroke: color, 'stroke-width': 1.6 });
