@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -37,11 +38,19 @@ std::optional<Foot> lower_foot(const Detection& d, const Camera& camera) {
   for (const Joint joint : {right_shoulder, left_shoulder, right_hip, left_hip})
     if (d.confidence[joint] < kSeen) return std::nullopt;
   const double torso = 0.5 * (d.pixels.col(right_shoulder) + d.pixels.col(left_shoulder) - d.pixels.col(right_hip) - d.pixels.col(left_hip)).norm();
+  if (!(torso > 1)) return std::nullopt;
   std::optional<Vec2> leg = upright_leg(d, right_hip, right_knee, right_ankle, torso);
   if (const auto other = upright_leg(d, left_hip, left_knee, left_ankle, torso); other && (!leg || other->y() > leg->y())) leg = other;
   if (!leg) return std::nullopt;
   const double depth = camera.fy * (kTorso + kLeg) / (torso + leg->x());
   return Foot{depth, (leg->y() - camera.cy) / camera.fy * depth};
+}
+
+/// The detection as a camera that is not rolled has it: turned about the principal point.
+Detection levelled(Detection d, const Camera& camera, double roll) {
+  const Vec2 middle(camera.cx, camera.cy);
+  d.pixels = (Eigen::Rotation2Dd(roll).toRotationMatrix() * (d.pixels.colwise() - middle)).colwise() + middle;
+  return d;
 }
 
 /// Least squares with Cauchy weights of below = height − slope · depth; the slope is drawn to `usual` by `sd`. The slope's prior counts for more
@@ -77,17 +86,17 @@ double median_depth(std::vector<Foot> feet) {
 }  // namespace
 
 GroundStart find_ground(const Take& take, Context& context) {
-  std::vector<Foot> feet;
-  for (const Detection& detection : take.detections)
-    if (const auto foot = lower_foot(detection, take.camera)) feet.push_back(*foot);
   GroundStart start;
   Ground& ground = start.ground;
-  start.feet = static_cast<int>(feet.size());
-  if (!feet.empty()) start.depth = median_depth(feet);
   if (take.up) {
     ground.pitch = std::asin(std::clamp(-take.up->z(), -1.0, 1.0));
     ground.roll = std::atan2(-take.up->x(), -take.up->y());
   }
+  std::vector<Foot> feet;
+  for (const Detection& detection : take.detections)
+    if (const auto foot = lower_foot(levelled(detection, take.camera, ground.roll), take.camera)) feet.push_back(*foot);
+  start.feet = static_cast<int>(feet.size());
+  if (!feet.empty()) start.depth = median_depth(feet);
   constexpr double kKnown = 1e-3;
   const Vec2 floor = take.up ? fit_floor(feet, std::tan(ground.pitch), kKnown) : fit_floor(feet, kUsualPitch, kPitchSd);
   ground.source = take.camera_height ? "given" : feet.empty() ? "assumed" : "feet";

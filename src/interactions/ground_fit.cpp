@@ -88,10 +88,10 @@ Ground fit_ground(const Take& take, const Database& database, const GroundStart&
       for (const auto& [rise, turn] : {std::pair{step, tilt}, {-step, -tilt}, {0.0, 0.5 * tilt}, {0.0, -0.5 * tilt}, {step, 0.0}, {-step, 0.0}}) {
         if ((fixed_height && rise != 0) || (fixed_pitch && turn != 0)) continue;
         Ground tried = best;
-        tried.camera_height = std::clamp(best.camera_height + rise, 0.2, 4.0);
-        tried.pitch = std::clamp(best.pitch + turn, -0.5, 1.0);
+        if (!fixed_height) tried.camera_height = std::clamp(best.camera_height + rise, 0.2, 4.0);
+        if (!fixed_pitch) tried.pitch = std::clamp(best.pitch + turn, -0.5, 1.0);
         const double error = value(tried);
-        if (error >= least) continue;
+        if (!(error < least)) continue;
         least = error;
         best = tried;
         better = true;

@@ -2,9 +2,12 @@
 // Copyright (c) 2026 the unseen authors
 #include "unseen/interactions/interactions.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "interactions/ground_fit.h"
+#include "interactions/masks.h"
 #include "interactions/merge_takes.h"
 #include "interactions/scene.h"
 #include "interactions/settle_objects.h"
@@ -12,6 +15,8 @@
 
 namespace unseen::interactions {
 namespace {
+
+constexpr double kLeastConfidence = 0.05;  // of an object that is worth a word
 
 /// Everybody's frames, with the objects whose windows these frames are in.
 std::vector<Passing> passings(const Reconstruction& r) {
@@ -44,6 +49,8 @@ Reconstruction solve(const std::vector<Take>& takes, const Database& database, c
     const Stage stage(context, r.summary, "match");
     for (int person = 0; person < take.people; ++person) {
       stories.push_back(read_story(sights_of(take, person, view), person, database, view, take.fps, options, context));
+      if (!stories.back().sights.empty() && stories.back().readings.empty())
+        context.warn(fmt::format("person {}: too few joints are seen for any motion", person));
       context.progress((person + 1.0) / take.people);
     }
   }
@@ -52,6 +59,8 @@ Reconstruction solve(const std::vector<Take>& takes, const Database& database, c
     r.evidence = evidence_of(stories, database);
     r.objects = find_objects(stories, database, r.evidence, view, options);
     r.windows = windows_of(stories, database);
+    heed_masks(r.objects, take.masks, view);
+    std::erase_if(r.objects, [](const FoundObject& found) { return found.confidence < kLeastConfidence; });
   }
   const Stage stage(context, r.summary, "motion");
   for (const Story& story : stories) r.people.push_back(person_of(story, database, view, take.fps));

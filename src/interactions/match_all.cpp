@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kBlock = 64;      // scenelets at a time: their sums stay in the first cache
 constexpr double kNearest = 0.3;        // m
 constexpr double kLeastCover = 0.5;     // of the glance's weight that a scenelet must have poses for
+constexpr std::size_t kLeastJoints = 3;  // seen a sight, on average: with fewer any motion fits
+constexpr double kPelvisHeight = 0.8;   // m, between sitting and standing
 
 /// The joints of all scenelets at one offset, a coordinate after the other; zero where a scenelet has no pose there.
 struct Sampled {
@@ -93,17 +95,31 @@ PlacementCost cost_at(const Sums& s, std::size_t i) {
   return cost;
 }
 
-double total_weight(const Glance& glance) {
-  double weight = 0;
+/// What a glance's seen joints say together.
+struct Seen {
+  double weight = 0;         ///< of their confidences
+  Vec3 ahead = Vec3::Zero();  ///< where they are from the camera
+  std::size_t joints = 0;
+};
+
+Seen seen_in(const Glance& glance) {
+  Seen seen;
   for (const Sight* sight : glance.sights)
-    for (int k = 0; k < kJoints; ++k)
-      if (sight->confidence[k] >= kSeen) weight += sight->confidence[k];
-  return weight;
+    for (int k = 0; k < kJoints; ++k) {
+      if (sight->confidence[k] < kSeen) continue;
+      seen.weight += sight->confidence[k];
+      seen.ahead += sight->confidence[k] * sight->rays[k];
+      ++seen.joints;
+    }
+  return seen;
 }
 
-std::vector<Match> match_glance(const Glance& glance, const std::vector<const Sampled*>& sampled, std::size_t scenelets, std::size_t keep) {
+std::vector<Match> match_glance(const Glance& glance, const std::vector<const Sampled*>& sampled, std::size_t scenelets, double camera_height,
+                                std::size_t keep) {
   std::vector<Match> matches;
-  const double least = kLeastCover * total_weight(glance);
+  const Seen seen = seen_in(glance);
+  if (seen.joints < kLeastJoints * glance.sights.size()) return matches;
+  const double least = kLeastCover * seen.weight;
   for (std::size_t first = 0; first < scenelets; first += kBlock) {
     const std::size_t count = std::min(kBlock, scenelets - first);
     Sums sums;
@@ -122,6 +138,7 @@ std::vector<Match> match_glance(const Glance& glance, const std::vector<const Sa
       if (!(sums.weight[i] > 0) || sums.weight[i] < least || !fit_placement(cost_at(sums, i), fit)) continue;
       const double far = fit.position.squaredNorm();  // the cost is in metres where the scenelet is: nearer is no better
       if (!(far > kNearest * kNearest)) continue;
+      if (!(seen.ahead.dot(Vec3(fit.position.x(), fit.position.y(), kPelvisHeight - camera_height)) > 0)) continue;  // rays end at the camera
       const double error = fit.cost / sums.weight[i] * glance.depth * glance.depth / far;
       matches.push_back({static_cast<int>(first + i), {{fit.position.x(), fit.position.y(), 0}, fit.angle}, error});
     }
@@ -148,7 +165,7 @@ std::vector<std::vector<Match>> match_all(const std::vector<Glance>& glances, co
     for (std::size_t i = begin; i < end; ++i) {
       std::vector<const Sampled*> here;
       for (const double offset : glances[i].offsets) here.push_back(&sampled.at(key(offset)));
-      matches[i] = match_glance(glances[i], here, database.scenelets.size(), keep);
+      matches[i] = match_glance(glances[i], here, database.scenelets.size(), camera.z(), keep);
     }
   });
   return matches;

@@ -24,6 +24,16 @@ void check(const Take& take, const Take& first) {
   if (take.fps != first.fps) throw InputError(take.name, "fps", fmt::format("{:g}", take.fps), fmt::format("{:g} as in {}", first.fps, first.name));
 }
 
+/// What is odd about who is who.
+void remark_on_people(const Take& take, const std::vector<int>& persons, std::vector<std::string>& remarks) {
+  const auto nobody = static_cast<std::size_t>(std::count(persons.begin(), persons.end(), -1));
+  if (10 * nobody > persons.size())
+    remarks.push_back(fmt::format("{} of {} detections are taken for nobody: \"people\" is {}", nobody, persons.size(), take.people));
+  int never = 0;
+  for (int p = 0; p < take.people; ++p) never += std::find(persons.begin(), persons.end(), p) == persons.end();
+  if (never > 0) remarks.push_back(fmt::format("{} of {} people are never seen", never, take.people));
+}
+
 }  // namespace
 
 Take merge_takes(const std::vector<Take>& takes) {
@@ -47,7 +57,11 @@ Take merge_takes(const std::vector<Take>& takes) {
     }
     all.people += take.people;
     start = last + static_cast<int>(kPause * take.fps);
-    if (&take != &takes.front()) all.remarks.insert(all.remarks.end(), take.remarks.begin(), take.remarks.end());
+    if (&take != &takes.front()) {
+      all.remarks.insert(all.remarks.end(), take.remarks.begin(), take.remarks.end());
+      all.masks.insert(all.masks.end(), take.masks.begin(), take.masks.end());
+    }
+    remark_on_people(take, persons, all.remarks);
   }
   return all;
 }

@@ -40,68 +40,87 @@ Vec2 velocity_of(const Reading& reading, const Database& database, double second
   return weight > 0 ? Vec2(velocity / weight) : velocity;
 }
 
-/// Velocities for every step between frames, from the readings around.
-std::vector<Vec2> velocities(const std::vector<Reading>& readings, const Database& database, int first, std::size_t steps) {
+/// How far the matched motions have come from frame `first` to each frame, by the readings around. m
+std::vector<Vec2> ways(const std::vector<Reading>& readings, const Database& database, double fps, int first, std::size_t frames) {
   constexpr double kSeconds = 0.4;
-  std::vector<Vec2> all(steps, Vec2::Zero());
-  std::size_t after = 0;
-  std::vector<Vec2> read;
+  std::vector<Vec2> read, covered(frames, Vec2::Zero());
   for (const Reading& reading : readings) read.push_back(velocity_of(reading, database, kSeconds));
-  for (std::size_t i = 0; i < steps; ++i) {
+  std::size_t after = 0;
+  for (std::size_t i = 0; i + 1 < frames; ++i) {
     const double frame = first + static_cast<double>(i) + 0.5;
     while (after < readings.size() && readings[after].frame < frame) ++after;
-    if (after == 0 || after == readings.size()) {
-      all[i] = read.empty() ? Vec2(Vec2::Zero()) : read[after == 0 ? 0 : after - 1];
-      continue;
+    Vec2 velocity = read[after == 0 ? 0 : after - 1];
+    if (after > 0 && after < readings.size()) {
+      const double share = (frame - readings[after - 1].frame) / (readings[after].frame - readings[after - 1].frame);
+      velocity = (1 - share) * read[after - 1] + share * read[after];
     }
-    const double share = (frame - readings[after - 1].frame) / (readings[after].frame - readings[after - 1].frame);
-    all[i] = (1 - share) * read[after - 1] + share * read[after];
+    covered[i + 1] = covered[i] + velocity / fps;
   }
-  return all;
+  return covered;
+}
+
+/// Positions in all frames: as the matched motions move, what the solution differs from that spread evenly between readings. Least squares
+/// has it so, because all steps weigh the same; so frames without a reading need not be unknowns.
+std::vector<Vec2> between_readings(const std::vector<Reading>& readings, const Eigen::VectorXd& solution, const std::vector<Vec2>& covered, int first) {
+  std::vector<Vec2> off, positions;
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    off.push_back(solution.segment<2>(static_cast<Eigen::Index>(2 * i)) - covered[static_cast<std::size_t>(readings[i].frame - first)]);
+  std::size_t after = 0;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    const int frame = first + static_cast<int>(i);
+    while (after < readings.size() && readings[after].frame < frame) ++after;
+    Vec2 here = off[after == readings.size() ? after - 1 : after];
+    if (after > 0 && after < readings.size()) {
+      const double share = static_cast<double>(frame - readings[after - 1].frame) / (readings[after].frame - readings[after - 1].frame);
+      here = (1 - share) * off[after - 1] + share * off[after];
+    }
+    positions.push_back(covered[i] + here);
+  }
+  return positions;
 }
 
 }  // namespace
 
 Path find_path(const std::vector<Reading>& readings, const Database& database, const View& view, double fps, int first, int last, bool smooth) {
-  const auto count = static_cast<Eigen::Index>(last - first + 1);
-  const std::vector<Vec2> velocity = velocities(readings, database, first, static_cast<std::size_t>(count - 1));
-  const double step_weight = fps * fps / (kSpeedSd * kSpeedSd) / fps * (smooth ? 1.0 : 1e-3);
+  const auto frames = static_cast<std::size_t>(last - first + 1);
+  const std::vector<Vec2> covered = ways(readings, database, fps, first, frames);
+  const double step_weight = fps / (kSpeedSd * kSpeedSd) * (smooth ? 1.0 : 1e-3);
   std::vector<double> trust(readings.size(), 1.0);
   std::vector<Eigen::Matrix2d> information;
   for (const Reading& reading : readings) information.push_back(information_of(reading, view));
-  Eigen::VectorXd solution = Eigen::VectorXd::Zero(2 * count);
+  const auto way_to = [&](std::size_t i) { return covered[static_cast<std::size_t>(readings[i].frame - first)]; };
+  Eigen::VectorXd solution;
   for (int round = 0; round < 8; ++round) {
     std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(2 * count);
+    const auto size = static_cast<Eigen::Index>(2 * readings.size());
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
     for (std::size_t i = 0; i < readings.size(); ++i) {
-      const Eigen::Index at = 2 * (readings[i].frame - first);
+      const auto at = static_cast<Eigen::Index>(2 * i);
       const Eigen::Matrix2d weight = trust[i] * information[i];
       for (int r = 0; r < 2; ++r)
         for (int c = 0; c < 2; ++c) entries.emplace_back(at + r, at + c, weight(r, c));
       right.segment<2>(at) += weight * readings[i].pelvis;
-    }
-    for (Eigen::Index i = 0; i + 1 < count; ++i)
-      for (Eigen::Index d = 0; d < 2; ++d) {
-        const Eigen::Index a = 2 * i + d, b = a + 2;
-        const double moved = velocity[static_cast<std::size_t>(i)][d] / fps;
-        entries.emplace_back(a, a, step_weight);
-        entries.emplace_back(b, b, step_weight);
-        entries.emplace_back(a, b, -step_weight);
-        entries.emplace_back(b, a, -step_weight);
-        right[a] -= step_weight * moved;
-        right[b] += step_weight * moved;
+      if (i + 1 == readings.size()) continue;
+      const double between = step_weight / (readings[i + 1].frame - readings[i].frame);
+      const Vec2 moved = between * (way_to(i + 1) - way_to(i));
+      for (Eigen::Index a = at; a < at + 2; ++a) {
+        entries.emplace_back(a, a, between);
+        entries.emplace_back(a + 2, a + 2, between);
+        entries.emplace_back(a, a + 2, -between);
+        entries.emplace_back(a + 2, a, -between);
       }
-    Eigen::SparseMatrix<double> normal(2 * count, 2 * count);
+      right.segment<2>(at) -= moved;
+      right.segment<2>(at + 2) += moved;
+    }
+    Eigen::SparseMatrix<double> normal(size, size);
     normal.setFromTriplets(entries.begin(), entries.end());
     solution = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(normal).solve(right);
     for (std::size_t i = 0; i < readings.size(); ++i) {
-      const Vec2 off = readings[i].pelvis - solution.segment<2>(2 * (readings[i].frame - first));
+      const Vec2 off = readings[i].pelvis - solution.segment<2>(static_cast<Eigen::Index>(2 * i));
       trust[i] = 1 / (1 + kCorrelated * off.dot(information[i] * off) / (kRough * kRough));
     }
   }
-  Path path{first, {}};
-  for (Eigen::Index i = 0; i < count; ++i) path.positions.push_back(solution.segment<2>(2 * i));
-  return path;
+  return {first, between_readings(readings, solution, covered, first)};
 }
 
 }  // namespace unseen::interactions

@@ -44,7 +44,7 @@ JointFile read_openpose_joints(const fs::path& folder) {
   std::size_t bytes = 0;
   for (const fs::path& file : files) {
     const int frame = last_number(file.stem().string());
-    if (frame < 0) throw InputError(file.string(), "", "no number in the name", "a name such as take_000000000012_keypoints.json");
+    if (frame < 0) throw InputError(file.string(), "", "no number below ten million in the name", "a frame's, such as take_000000000012_keypoints.json");
     const std::string text = io::read_text_file(file, kLargestFrame);
     bytes += text.size();
     if (bytes > kLargestFolder) throw InputError(folder.string(), "", fmt::format("more than {} GiB of JSON", kLargestFolder >> 30), "a shorter take");

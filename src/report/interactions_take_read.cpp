@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "io/rgbd_parts.h"
 #include "report/collision_shot_parts.h"
@@ -38,13 +39,15 @@ std::vector<Label> read_labels(const JsonField& json, int people) {
   return labels;
 }
 
-std::vector<Mask> read_masks(const JsonField& json, const fs::path& folder, const Camera& camera) {
+std::vector<Mask> read_masks(const JsonField& json, const fs::path& folder, const Camera& camera, std::vector<std::string>& remarks) {
   std::vector<Mask> masks;
   for (const JsonField& field : json.list(kMostMasks)) {
     field.allow_only({"category", "image"});
     (void)field["image"];
     Mask mask = {field["category"].text(), camera.width, camera.height, {}};
     for (const std::int32_t value : io::read_masks(io::named_file(field, "image", folder), camera)) mask.inside.push_back(value != 0);
+    if (superclass_of(mask.category) == Superclass::other)
+      remarks.push_back(fmt::format("{} says nothing: \"{}\" is none of {}", field.path(), mask.category, fmt::join(kCategories.begin(), kCategories.end() - 1, ", ")));
     masks.push_back(std::move(mask));
   }
   return masks;
@@ -92,7 +95,7 @@ Take read_take(const fs::path& path) {
   if (json.has("up")) take.up = read_direction(json["up"]);
   if (json.has("camera_height")) take.camera_height = json["camera_height"].number(0.01, 100.0);
   if (json.has("labels")) take.labels = read_labels(json["labels"], take.people);
-  if (json.has("masks")) take.masks = read_masks(json["masks"], folder, take.camera);
+  if (json.has("masks")) take.masks = read_masks(json["masks"], folder, take.camera, take.remarks);
   return take;
 }
 

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include "interactions/ground.h"
+#include "interactions/ground_fit.h"
+#include "interactions/sight.h"
+#include "unseen/interactions/synth.h"
+
+namespace unseen::interactions {
+namespace {
+
+Take walking(int seconds = 20) {
+  SynthOptions options;
+  options.seconds = seconds;
+  options.noise = 0;
+  options.lifted = false;
+  Take take = simulate(options).take;
+  for (Detection& detection : take.detections) detection.person = 0;
+  return take;
+}
+
+/// The same take by a camera that is rolled about its axis.
+Take rolled(Take take, double roll) {
+  const Vec2 middle(take.camera.cx, take.camera.cy);
+  for (Detection& d : take.detections) d.pixels = (Eigen::Rotation2Dd(-roll).toRotationMatrix() * (d.pixels.colwise() - middle)).colwise() + middle;
+  return take;
+}
+
+/// Up in camera coordinates, by the view itself.
+Vec3 up_of(const Take& take, const Ground& ground) { return view_of(take.camera, ground).T_world_camera.rotation.transpose() * Vec3::UnitZ(); }
+
+TEST(GivenGround, RollOfTheCameraChangesNothingElse) {
+  Take take = walking();
+  take.up = up_of(take, {1.2, 0.08, 0, ""});
+  Context context;
+  const Ground level = find_ground(take, context).ground;
+  for (const double roll : {-1.5, -0.3, 0.2, 1.0, 3.0}) {
+    Take turned = rolled(take, roll);
+    turned.up = up_of(take, {1.2, 0.08, roll, ""});
+    const Ground found = find_ground(turned, context).ground;
+    EXPECT_NEAR(found.roll, roll, 1e-9);
+    EXPECT_NEAR(found.pitch, level.pitch, 1e-9);
+    EXPECT_NEAR(found.camera_height, level.camera_height, 1e-6);
+    EXPECT_EQ(found.source, level.source);
+  }
+}
+
+TEST(GivenGround, IsKept) {
+  Take take = walking(4);
+  Database database = build_database({simulate({}).truth}, {}, *std::make_unique<Context>());
+  Context context;
+  take.camera_height = 6.5;  // higher and steeper than a search would go
+  EXPECT_EQ(fit_ground(take, database, find_ground(take, context), context).camera_height, 6.5);
+  take.camera_height.reset();
+  take.up = Vec3(0, -0.3, -std::sqrt(1 - 0.09));
+  EXPECT_NEAR(fit_ground(take, database, find_ground(take, context), context).pitch, std::asin(std::sqrt(1 - 0.09)), 1e-3);
+}
+
+TEST(GivenGround, JointsOnOnePointSayNothingOfTheGround) {
+  Take take = walking(4);
+  for (Detection& d : take.detections) {
+    d.pixels.colwise() = Vec2(500, 500);
+    d.confidence.setConstant(0.9);
+  }
+  Context context;
+  const GroundStart start = find_ground(take, context);
+  EXPECT_EQ(start.feet, 0);
+  Database database = build_database({simulate({}).truth}, {}, context);
+  EXPECT_TRUE(std::isfinite(fit_ground(take, database, start, context).camera_height));
+}
+
+}  // namespace
+}  // namespace unseen::interactions
