@@ -67,8 +67,8 @@ int main(int argc, char** argv) {
                                          add_collision(app, command), add_interactions(app, command), add_stage(app), add_convert(app),
                                          add_synth_planes(*synth), add_synth_cuboids(*synth), add_synth_collision(*synth), add_synth_interactions(*synth),
                                          add_evaluate_planes(*evaluate), add_evaluate_cuboids(*evaluate), add_evaluate_collision(*evaluate),
-                                         add_evaluate_interactions(*evaluate),
-                                         add_scenelets_build(*scenelets), add_scenelets_info(*scenelets), add_view(app)};
+                                         add_evaluate_interactions(*evaluate), add_scenelets_build(*scenelets), add_scenelets_info(*scenelets),
+                                         add_view(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {

@@ -88,7 +88,8 @@ std::map<std::size_t, double> weights(const EvidenceMap& map, const std::vector<
       if (object.superclass() == Superclass::other || object.parts.empty()) continue;
       const std::vector<std::size_t> cells = cells_of(map, footprint(object));
       for (const int turn : turns_of(object))
-        for (const std::size_t cell : cells) places.push_back((static_cast<std::size_t>(object.superclass()) * EvidenceMap::kTurns + static_cast<std::size_t>(turn)) * ground + cell);
+        for (const std::size_t cell : cells)
+          places.push_back((static_cast<std::size_t>(object.superclass()) * EvidenceMap::kTurns + static_cast<std::size_t>(turn)) * ground + cell);
     }
     std::sort(places.begin(), places.end());  // one vote counts once, though two of its objects be there
     places.erase(std::unique(places.begin(), places.end()), places.end());

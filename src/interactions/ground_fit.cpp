@@ -22,8 +22,8 @@ Database thinned(const Database& database) {
 
 class Misfit {
  public:
-  Misfit(const Take& take, const std::vector<int>& persons, const Database& database, const GroundStart& feet, const Context& context)
-      : take_(take), persons_(persons), database_(thinned(database)), feet_(feet), context_(context) {}
+  Misfit(const Take& take, const Database& database, const GroundStart& feet, const Context& context)
+      : take_(take), database_(thinned(database)), feet_(feet), context_(context) {}
 
   /// Mean error of the best matches, m², and weak pulls to the floor as feet have it and to cameras as people set them up.
   double operator()(const Ground& ground) const {
@@ -31,7 +31,7 @@ class Misfit {
     constexpr std::size_t kTried = 6;
     const View view = view_of(take_.camera, ground);
     std::vector<std::vector<Sight>> people;
-    for (int person = 0; person < take_.people; ++person) people.push_back(sights_of(take_, persons_, person, view));
+    for (int person = 0; person < take_.people; ++person) people.push_back(sights_of(take_, person, view));
     std::vector<Glance> glances;
     std::size_t total = 0;
     for (const auto& sights : people) total += sights.size();
@@ -59,7 +59,6 @@ class Misfit {
   static constexpr double kWorst = 0.08, kPull = 1e-4;  // m²
   static constexpr double kFloorSd = 0.08;              // m
   const Take& take_;
-  const std::vector<int>& persons_;
   Database database_;
   const GroundStart& feet_;
   const Context& context_;
@@ -67,10 +66,10 @@ class Misfit {
 
 }  // namespace
 
-Ground fit_ground(const Take& take, const std::vector<int>& persons, const Database& database, const GroundStart& start, const Context& context) {
+Ground fit_ground(const Take& take, const Database& database, const GroundStart& start, const Context& context) {
   const bool fixed_height = take.camera_height.has_value(), fixed_pitch = take.up.has_value();
   if ((fixed_height && fixed_pitch) || database.scenelets.empty()) return start.ground;
-  const Misfit misfit(take, persons, database, start, context);
+  const Misfit misfit(take, database, start, context);
   std::map<std::pair<long, long>, double> known;
   const auto value = [&](const Ground& g) {
     const auto [entry, fresh] = known.try_emplace({std::lround(1e4 * g.camera_height), std::lround(1e4 * g.pitch)}, 0.0);

@@ -9,6 +9,6 @@ namespace unseen::interactions {
 
 /// The camera's height and pitch under which scenelets that stand on the floor explain the detections best, searched around `start`.
 /// Bodies tell it better than feet alone: heads, hips and knees at several depths all have their heights; feet hold the floor where they stand. What the take gives is kept.
-Ground fit_ground(const Take& take, const std::vector<int>& persons, const Database& database, const GroundStart& start, const Context& context);
+Ground fit_ground(const Take& take, const Database& database, const GroundStart& start, const Context& context);
 
 }  // namespace unseen::interactions

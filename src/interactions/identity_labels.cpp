@@ -38,12 +38,14 @@ int marked(const Take& take, const Sightings& s, const Label& label, const std::
         least = d;
         best = i;
       }
-  if (best < 0) throw InputError(take.name, field, fmt::format("nobody at ({:.0f}, {:.0f}) in frame {}", label.pixel.x(), label.pixel.y(), label.frame), "a detected person");
+  if (best < 0)
+    throw InputError(take.name, field, fmt::format("nobody at ({:.0f}, {:.0f}) in frame {}", label.pixel.x(), label.pixel.y(), label.frame), "a detected person");
   return best;
 }
 
 void fix(const Take& take, const Sightings& s, Allowed& allowed, int detection, int person, const std::string& field) {
-  if (person < 0 || person >= take.people) throw InputError(take.name, field, fmt::format("person {}", person), fmt::format("0 to {}", take.people - 1));
+  if (person < 0 || person >= take.people)
+    throw InputError(take.name, field, fmt::format("person {}", person), fmt::format("0 to {}", take.people - 1));
   if ((allowed.detection[static_cast<std::size_t>(detection)] & (People{1} << person)) == 0)
     throw InputError(take.name, field, fmt::format("person {} in frame {}", person, take.detections[static_cast<std::size_t>(detection)].frame), "no contradiction to the other labels");
   allowed = with_fixed(std::move(allowed), s, detection, person);
@@ -75,7 +77,8 @@ Allowed allowed_by_labels(const Take& take, const Sightings& s) {
   if (take.people < 1 || take.people > kMostPeople) throw InputError(take.name, "people", fmt::format("{}", take.people), fmt::format("1 to {}", kMostPeople));
   Allowed allowed = {std::vector<People>(take.detections.size(), (People{1} << take.people) - 1), std::vector<std::vector<int>>(static_cast<std::size_t>(take.people))};
   for (std::size_t i = 0; i < take.detections.size(); ++i)
-    if (take.detections[i].person >= 0) fix(take, s, allowed, static_cast<int>(i), take.detections[i].person, fmt::format("frame {}", take.detections[i].frame));
+    if (take.detections[i].person >= 0)
+      fix(take, s, allowed, static_cast<int>(i), take.detections[i].person, fmt::format("frame {}", take.detections[i].frame));
   for (std::size_t i = 0; i < take.labels.size(); ++i) {
     const std::string field = fmt::format("labels[{}]", i);
     fix(take, s, allowed, marked(take, s, take.labels[i], field), take.labels[i].person, field);

@@ -2,44 +2,79 @@
 // Copyright (c) 2026 the unseen authors
 #include "unseen/interactions/interactions.h"
 
-#include "interactions/ground.h"
+#include <algorithm>
+
 #include "interactions/ground_fit.h"
-#include "interactions/motion.h"
-#include "interactions/use.h"
-#include "interactions/votes.h"
+#include "interactions/merge_takes.h"
+#include "interactions/scene.h"
+#include "interactions/settle_objects.h"
+#include "unseen/core/error.h"
 
 namespace unseen::interactions {
 namespace {
-std::vector<std::vector<bool>> used_everywhere(const Database& database) {
-  std::vector<std::vector<bool>> used;
-  for (const Scenelet& scenelet : database.scenelets) used.push_back(used_objects(scenelet));
-  return used;
+
+/// Everybody's frames, with the objects whose windows these frames are in.
+std::vector<Passing> passings(const Reconstruction& r) {
+  std::vector<Passing> all;
+  for (const Person& person : r.people)
+    for (const PersonFrame& frame : person.frames) {
+      Passing passing{{frame.pose.col(pelvis), frame.pose.col(right_knee), frame.pose.col(left_knee)}, {}};
+      for (const FoundObject& found : r.objects)
+        if (std::any_of(found.windows.begin(), found.windows.end(), [&](int w) {
+              const Window& window = r.windows[static_cast<std::size_t>(w)];
+              return window.person == person.id && window.first <= frame.frame && frame.frame <= window.last;
+            }))
+          passing.uses.push_back(found.object.id);
+      all.push_back(std::move(passing));
+    }
+  return all;
 }
+
+Reconstruction solve(const std::vector<Take>& takes, const Database& database, const Options& options, Reconstruction r, Context& context) {
+  const Take take = merge_takes(takes);
+  for (const std::string& remark : take.remarks) context.warn(remark);
+  {
+    const Stage stage(context, r.summary, "ground");
+    r.ground = fit_ground(take, database, find_ground(take, context), context);
+  }
+  const View view = view_of(take.camera, r.ground);
+  r.T_world_camera = view.T_world_camera;
+  std::vector<Story> stories;
+  {
+    const Stage stage(context, r.summary, "match");
+    for (int person = 0; person < take.people; ++person) {
+      stories.push_back(read_story(sights_of(take, person, view), person, database, view, take.fps, options, context));
+      context.progress((person + 1.0) / take.people);
+    }
+  }
+  {
+    const Stage stage(context, r.summary, "scene");
+    r.evidence = evidence_of(stories, database);
+    r.objects = find_objects(stories, database, r.evidence, view, options);
+    r.windows = windows_of(stories, database);
+  }
+  const Stage stage(context, r.summary, "motion");
+  for (const Story& story : stories) r.people.push_back(person_of(story, database, view, take.fps));
+  if (options.intersection) settle_objects(r.objects, passings(r));
+  for (std::size_t i = 0; i < r.objects.size(); ++i) r.objects[i].object.id = static_cast<int>(i);
+  return r;
+}
+
 }  // namespace
 
 Reconstruction reconstruct(const std::vector<Take>& takes, const Database& database, const Options& options, Context& context) {
   Reconstruction r;
-  const Take& take = takes.front();
-  std::vector<int> persons;
-  for (const Detection& d : take.detections) persons.push_back(std::max(0, d.person));
-  const GroundStart start = find_ground(take, context);
-  r.ground = fit_ground(take, persons, database, start, context);
-  const View view = view_of(take.camera, r.ground);
-  r.T_world_camera = view.T_world_camera;
-  r.camera = take.camera;
-  r.fps = take.fps;
-  const auto used = used_everywhere(database);
-  std::vector<Vote> votes;
-  for (int person = 0; person < take.people; ++person) {
-    const std::vector<Sight> sights = sights_of(take, persons, person, view);
-    const std::vector<Reading> readings = read_motion(sights, database, view, take.fps, options.occlusion, context);
-    const Path path = find_path(readings, database, view, take.fps, sights.front().frame, sights.back().frame, options.smoothness);
-    for (Vote& vote : votes_of(person, readings, path, database, used, 0.2)) votes.push_back(std::move(vote));
-    std::vector<Choice> windows = find_windows(readings, database, take.fps, options.saliency);
-    choose_scenelets(windows, readings, database, path, take.fps, options.smoothness);
-    r.people.push_back({person, find_motion(sights, readings, windows, database, path, view, take.fps), {}});
+  if (!takes.empty()) {
+    r.camera = takes.front().camera;
+    r.fps = takes.front().fps;
   }
-  r.objects = gather_objects(votes, view).objects;
+  try {
+    r = solve(takes, database, options, std::move(r), context);
+    if (r.objects.empty()) r.summary.status = Status::infeasible;
+  } catch (const Cancelled&) {
+    r.summary.status = Status::cancelled;
+  }
+  r.summary.warnings = context.take_warnings();
   return r;
 }
 

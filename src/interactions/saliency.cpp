@@ -28,29 +28,37 @@ Table motions(const std::vector<Scenelet>& scenelets) {
   return columns;
 }
 
-/// A row a scenelet, a column a bin that any scenelet uses; `used` says which.
-Table layouts(const std::vector<Scenelet>& scenelets, std::vector<std::size_t>& used) {
-  for (std::size_t bin = 0; bin < scenelets.front().layout.size(); ++bin)
-    if (std::any_of(scenelets.begin(), scenelets.end(), [&](const Scenelet& s) { return s.layout[bin] > 0; })) used.push_back(bin);
-  Table rows(scenelets.size(), used.size());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i)
-    for (Eigen::Index j = 0; j < rows.cols(); ++j) rows(i, j) = static_cast<double>(scenelets[static_cast<std::size_t>(i)].layout[used[static_cast<std::size_t>(j)]]);
-  return rows;
+constexpr Eigen::Index kBins = kGrid * kGrid, kOwn = static_cast<Eigen::Index>(kCategories.size()) * kBins;  ///< bins of categories
+constexpr Eigen::Index kAll = kOwn + 3 * kBins;  ///< and behind them those of superclasses: who sits does so on a chair here, a couch there
+
+/// What a scenelet has in a bin. Few bins are not empty.
+struct Entry {
+  Eigen::Index scenelet, bin;
+  double share;
+};
+
+std::vector<Entry> entries(const std::vector<Scenelet>& scenelets) {
+  std::vector<Entry> all;
+  for (std::size_t i = 0; i < scenelets.size(); ++i) {
+    Eigen::VectorXd shares = Eigen::VectorXd::Zero(kAll);
+    for (Eigen::Index bin = 0; bin < kOwn; ++bin) {
+      shares[bin] = static_cast<double>(scenelets[i].layout[static_cast<std::size_t>(bin)]);
+      const Superclass superclass = superclass_of(kCategories[static_cast<std::size_t>(bin / kBins)]);
+      if (superclass == Superclass::other) continue;
+      double& shared = shares[kOwn + static_cast<Eigen::Index>(superclass) * kBins + bin % kBins];
+      shared = std::max(shared, shares[bin]);
+    }
+    for (Eigen::Index bin = 0; bin < kAll; ++bin)
+      if (shares[bin] > 0) all.push_back({static_cast<Eigen::Index>(i), bin, shares[bin]});
+  }
+  return all;
 }
 
-/// The same by superclass (all but "other"): who sits does so on a chair here and on a couch there.
-Table superclass_layouts(const std::vector<Scenelet>& scenelets) {
-  constexpr Eigen::Index kBins = kGrid * kGrid;
-  Table rows = Table::Zero(static_cast<Eigen::Index>(scenelets.size()), 3 * kBins);
-  for (std::size_t category = 0; category < kCategories.size(); ++category) {
-    const Superclass superclass = superclass_of(kCategories[category]);
-    if (superclass == Superclass::other) continue;
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      auto block = rows.row(i).segment(static_cast<Eigen::Index>(superclass) * kBins, kBins);
-      block = block.cwiseMax(Eigen::Map<const Eigen::RowVectorXf>(&scenelets[static_cast<std::size_t>(i)].layout[category * kBins], kBins).cast<double>());
-    }
-  }
-  return rows;
+/// Weighted means of what scenelets have in each bin; a row a row of weights, which sum to 1.
+Table means(const Table& weights, const std::vector<Entry>& entries) {
+  Table mean = Table::Zero(weights.rows(), kAll);
+  for (const Entry& entry : entries) mean.col(entry.bin) += entry.share * weights.col(entry.scenelet);
+  return mean;
 }
 
 }  // namespace
@@ -71,13 +79,11 @@ std::vector<double> densities(const std::vector<Scenelet>& scenelets) {
 std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigma) {
   if (scenelets.empty()) return scenelets;
   const Table motion = motions(scenelets);
-  std::vector<std::size_t> used;
-  const Table layout = layouts(scenelets, used);
-  const Table by_superclass = superclass_layouts(scenelets);
+  const std::vector<Entry> layout = entries(scenelets);
   const Eigen::RowVectorXd length2 = motion.colwise().squaredNorm();
   const std::vector<double> density = densities(scenelets);
   const Eigen::VectorXd rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse();
-  const Eigen::RowVectorXd chance = rarity.transpose() * by_superclass / rarity.sum();
+  const Eigen::RowVectorXd chance = means(rarity.transpose() / rarity.sum(), layout).rightCols(kAll - kOwn);
   parallel_blocks({}, scenelets.size(), kBlock, [&](std::size_t first, std::size_t end) {
     const auto begin = static_cast<Eigen::Index>(first), rows = static_cast<Eigen::Index>(end - first);
     Table weight = -2.0 * motion.middleCols(begin, rows).transpose() * motion;  // becomes squared distances, then G / ρ
@@ -86,12 +92,12 @@ std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigm
     weight = (weight.array().max(0.0) * (-0.5 / (sigma * sigma))).exp().matrix() * rarity.asDiagonal();
     const Eigen::VectorXd total = weight.rowwise().sum();
     weight = total.cwiseInverse().asDiagonal() * weight;
-    const Table h = weight * layout, by_motion = weight * by_superclass;
+    const Table h = means(weight, layout);
     for (Eigen::Index i = 0; i < rows; ++i) {
       Scenelet& scenelet = scenelets[static_cast<std::size_t>(begin + i)];
-      scenelet.saliency.assign(scenelet.layout.size(), 0.0f);
-      for (std::size_t j = 0; j < used.size(); ++j) scenelet.saliency[used[j]] = static_cast<float>(h(i, static_cast<Eigen::Index>(j)));
-      const auto lift = (by_motion.row(i) - chance).array() / (1.0 + 1e-9 - chance.array());
+      scenelet.saliency.resize(static_cast<std::size_t>(kOwn));
+      for (Eigen::Index bin = 0; bin < kOwn; ++bin) scenelet.saliency[static_cast<std::size_t>(bin)] = static_cast<float>(h(i, bin));
+      const auto lift = (h.row(i).tail(kAll - kOwn) - chance).array() / (1.0 + 1e-9 - chance.array());
       scenelet.highest_saliency = std::clamp(lift.maxCoeff(), 0.0, 1.0);
     }
   });

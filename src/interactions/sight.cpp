@@ -24,11 +24,10 @@ View view_of(const Camera& camera, const Ground& ground) {
   return {camera, {tilt * level, Vec3(0, 0, ground.camera_height)}};
 }
 
-std::vector<Sight> sights_of(const Take& take, const std::vector<int>& persons, int person, const View& view) {
+std::vector<Sight> sights_of(const Take& take, int person, const View& view) {
   std::vector<Sight> sights;
-  for (std::size_t i = 0; i < take.detections.size(); ++i) {
-    if (persons[i] != person) continue;
-    const Detection& detection = take.detections[i];
+  for (const Detection& detection : take.detections) {
+    if (detection.person != person) continue;
     Sight sight;
     sight.frame = detection.frame;
     sight.pixels = detection.pixels;

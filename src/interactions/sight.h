@@ -37,6 +37,6 @@ struct Sight {
 };
 
 /// One person's detections, by frame.
-std::vector<Sight> sights_of(const Take& take, const std::vector<int>& persons, int person, const View& view);
+std::vector<Sight> sights_of(const Take& take, int person, const View& view);
 
 }  // namespace unseen::interactions

@@ -53,7 +53,8 @@ std::string database_info_json(const Database& database) {
   for (const auto& [category, count] : info.with_category) json["categories"][category] = count;
   json["actions"] = Json::object();
   for (const auto& [action, saliency] : info.by_action) {
-    Json quantiles = list_of(kQuantiles, [&](double q, std::size_t) { return number(quantile(saliency, q)); });
+    Json quantiles = Json::array();
+    for (const double q : kQuantiles) quantiles.push_back(number(quantile(saliency, q)));
     json["actions"][action] = Json{{"scenelets", saliency.size()}, {"saliency", quantiles}};
   }
   return text_of(json);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/votes.h"
+#include "interactions/gather_objects.h"
 
 #include <cmath>
 #include <map>
@@ -15,6 +15,7 @@ struct Habit {
   double least_share;  // of a reading's matches
 };
 constexpr std::array<Habit, 3> kHabits = {{{0.16, 0.07, 0.5, 0.5}, {0.30, 0.10, 1.0, 0.5}, {0.30, 0.10, 1.5, 0.4}}};
+constexpr double kReadingTime = 0.2;  // s that a reading stands for
 constexpr double kGate = 2.5;  // sd
 
 /// Squared distance of two places in standard deviations.
@@ -24,13 +25,13 @@ double apart(const Vec2& a, const Vec2& b, const Habit& habit, const Vec2& camer
   return depth * depth + side * side;
 }
 
-/// The vote around which most mass gathers.
-std::size_t densest(const std::vector<Vote>& votes, const std::vector<std::size_t>& open, const Habit& habit, const Vec2& camera) {
+/// The one around which most mass gathers.
+std::size_t densest(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& open, const Habit& habit, const Vec2& camera) {
   std::size_t best = open.front();
   double most = -1;
   for (const std::size_t i : open) {
     double density = 0;
-    for (const std::size_t j : open) density += votes[j].mass * std::exp(-0.5 * apart(votes[i].place, votes[j].place, habit, camera));
+    for (const std::size_t j : open) density += in_use[j].mass * std::exp(-0.5 * apart(in_use[i].place, in_use[j].place, habit, camera));
     if (density <= most) continue;
     most = density;
     best = i;
@@ -39,9 +40,9 @@ std::size_t densest(const std::vector<Vote>& votes, const std::vector<std::size_
 }
 
 /// Largest share of a reading's matches, as a mean over three readings.
-double peak_share(const std::vector<Vote>& votes, const std::vector<std::size_t>& members) {
+double peak_share(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& members) {
   std::map<std::pair<int, std::size_t>, double> shares;
-  for (const std::size_t i : members) shares[{votes[i].person, votes[i].reading}] += votes[i].share;
+  for (const std::size_t i : members) shares[{in_use[i].story, in_use[i].reading}] += in_use[i].share;
   double peak = 0;
   for (const auto& [at, share] : shares) {
     double sum = share;
@@ -52,26 +53,26 @@ double peak_share(const std::vector<Vote>& votes, const std::vector<std::size_t>
   return peak;
 }
 
-/// The object that the votes describe: category of most mass, its most typical vote moved to their mean place.
-Object describe(const std::vector<Vote>& votes, const std::vector<std::size_t>& members) {
+/// The object that they describe: category of most mass, its most typical one moved to their mean place.
+Object describe(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& members) {
   std::map<std::string, double> masses;
-  for (const std::size_t i : members) masses[votes[i].object.category] += votes[i].mass;
+  for (const std::size_t i : members) masses[in_use[i].object.category] += in_use[i].mass;
   const std::string category = std::max_element(masses.begin(), masses.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
   Vec3 mean = Vec3::Zero();
   double mass = 0;
   for (const std::size_t i : members) {
-    if (votes[i].object.category != category) continue;
-    mean += votes[i].mass * votes[i].object.center();
-    mass += votes[i].mass;
+    if (in_use[i].object.category != category) continue;
+    mean += in_use[i].mass * in_use[i].object.center();
+    mass += in_use[i].mass;
   }
   mean /= mass;
-  const Vote* typical = nullptr;
+  const UsedObject* typical = nullptr;
   double least = 0;
   for (const std::size_t i : members) {
-    if (votes[i].object.category != category) continue;
-    const double cost = (votes[i].object.center() - mean).squaredNorm() - 0.2 * votes[i].share;
+    if (in_use[i].object.category != category) continue;
+    const double cost = (in_use[i].object.center() - mean).squaredNorm() - 0.2 * in_use[i].share;
     if (typical && cost >= least) continue;
-    typical = &votes[i];
+    typical = &in_use[i];
     least = cost;
   }
   Vec3 shift = mean - typical->object.center();
@@ -81,9 +82,9 @@ Object describe(const std::vector<Vote>& votes, const std::vector<std::size_t>& 
 
 }  // namespace
 
-std::vector<Vote> votes_of(int person, const std::vector<Reading>& readings, const Path& path, const Database& database,
-                           const std::vector<std::vector<bool>>& used, double seconds) {
-  std::vector<Vote> votes;
+std::vector<UsedObject> used_objects_in(int story, const std::vector<Reading>& readings, const Path& path, const Database& database,
+                           const std::vector<std::vector<bool>>& used) {
+  std::vector<UsedObject> in_use;
   for (std::size_t r = 0; r < readings.size(); ++r)
     for (std::size_t i = 0; i < readings[r].matches.size(); ++i) {
       const Match& match = readings[r].matches[i];
@@ -93,37 +94,37 @@ std::vector<Vote> votes_of(int person, const std::vector<Reading>& readings, con
       for (std::size_t o = 0; o < scenelet.objects.size(); ++o) {
         const Object& object = scenelet.objects[o];
         if (!used[static_cast<std::size_t>(match.scenelet)][o] || object.superclass() == Superclass::other) continue;
-        Vote vote{person, r, match.scenelet, placement * object, Vec2::Zero(), readings[r].weights[i] * seconds, readings[r].weights[i]};
-        vote.place = object.superclass() == Superclass::sit ? Vec2(placement.position.head<2>()) : Vec2(vote.object.center().head<2>());
-        votes.push_back(std::move(vote));
+        UsedObject one{story, r, match.scenelet, placement * object, Vec2::Zero(), readings[r].weights[i] * kReadingTime, readings[r].weights[i]};
+        one.place = object.superclass() == Superclass::sit ? Vec2(placement.position.head<2>()) : Vec2(one.object.center().head<2>());
+        in_use.push_back(std::move(one));
       }
     }
-  return votes;
+  return in_use;
 }
 
-Gathered gather_objects(const std::vector<Vote>& votes, const View& view) {
+Gathered gather_objects(const std::vector<UsedObject>& in_use, const View& view) {
   Gathered gathered;
   const Vec2 camera = view.center().head<2>();
   for (std::size_t superclass = 0; superclass < kHabits.size(); ++superclass) {
     const Habit& habit = kHabits[superclass];
     std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < votes.size(); ++i)
-      if (votes[i].object.superclass() == static_cast<Superclass>(superclass)) open.push_back(i);
+    for (std::size_t i = 0; i < in_use.size(); ++i)
+      if (in_use[i].object.superclass() == static_cast<Superclass>(superclass)) open.push_back(i);
     while (!open.empty()) {
-      const Vec2 center = votes[densest(votes, open, habit, camera)].place;
+      const Vec2 center = in_use[densest(in_use, open, habit, camera)].place;
       std::vector<std::size_t> members, rest;
       double mass = 0;
       for (const std::size_t i : open) {
-        const bool near = apart(votes[i].place, center, habit, camera) < kGate * kGate;
+        const bool near = apart(in_use[i].place, center, habit, camera) < kGate * kGate;
         (near ? members : rest).push_back(i);
-        if (near) mass += votes[i].mass;
+        if (near) mass += in_use[i].mass;
       }
       open = std::move(rest);
       if (mass < habit.least_time) break;  // nothing left gathers more
-      const double share = peak_share(votes, members);
+      const double share = peak_share(in_use, members);
       if (share < habit.least_share) continue;
       FoundObject found;
-      found.object = describe(votes, members);
+      found.object = describe(in_use, members);
       found.object.id = static_cast<int>(gathered.objects.size());
       found.confidence = share * (1 - std::exp(-mass / habit.least_time));
       gathered.objects.push_back(std::move(found));

@@ -8,8 +8,8 @@
 namespace unseen::interactions {
 
 /// A scenelet's object that its person uses, laid into the scene by a match.
-struct Vote {
-  int person = 0;
+struct UsedObject {
+  int story = 0;
   std::size_t reading = 0;
   int scenelet = -1;
   Object object;  ///< world
@@ -18,16 +18,16 @@ struct Vote {
   double share = 0;           ///< weight of the match
 };
 
-/// Votes of all matches of a person, with matches moved along the path's positions.
-std::vector<Vote> votes_of(int person, const std::vector<Reading>& readings, const Path& path, const Database& database,
-                           const std::vector<std::vector<bool>>& used, double seconds);
+/// Used objects of all matches of a story, the matches moved along the path's positions.
+std::vector<UsedObject> used_objects_in(int story, const std::vector<Reading>& readings, const Path& path, const Database& database,
+                                        const std::vector<std::vector<bool>>& used);
 
-/// Objects where votes gather: of one superclass, near each other across the view and somewhat farther along it, for long enough and
-/// convincingly enough. `members` has the votes of each.
+/// Objects where used objects gather: of one superclass, near each other across the view and somewhat farther along it, for long enough and
+/// convincingly enough. `members` has the indices of each.
 struct Gathered {
   std::vector<FoundObject> objects;
   std::vector<std::vector<std::size_t>> members;
 };
-Gathered gather_objects(const std::vector<Vote>& votes, const View& view);
+Gathered gather_objects(const std::vector<UsedObject>& in_use, const View& view);
 
 }  // namespace unseen::interactions
