@@ -65,7 +65,7 @@ EvidenceMap evidence_of(const std::vector<Story>& stories, const Database& datab
   constexpr std::size_t kGood = 10;      // matches of a reading
   constexpr int kMoments = 3;            // readings that have to agree
   constexpr double kUnlikely = 0.15;     // likelihood of an interaction below which someone just walks
-  std::vector<Vote> votes;
+  std::vector<Evidence> votes;
   std::vector<Vec2> walked;
   int moment = 0;
   for (const Story& story : stories)
@@ -73,7 +73,7 @@ EvidenceMap evidence_of(const std::vector<Story>& stories, const Database& datab
       ++moment;
       if (reading.likelihood < kUnlikely) walked.push_back(story.path.at(reading.frame));
       for (std::size_t i = 0; i < std::min(kGood, reading.matches.size()); ++i) {
-        Vote vote{moment, reading.weights[i], {}};
+        Evidence vote{moment, reading.weights[i], {}};
         for (const Object& object : scenelet_of(database, reading.matches[i]).objects)
           vote.objects.push_back(on_path(reading.matches[i], reading, story.path) * object);
         votes.push_back(std::move(vote));
