@@ -31,7 +31,7 @@ namespace {
 
 /// Everything that `unseen interactions` can be told.
 struct Arguments {
-  std::vector<std::string> inputs, databases;
+  std::vector<std::string> inputs, databases, videos;
   std::string out, shell_command;
   CommonFlags common;
   bool no_report = false;
@@ -39,9 +39,10 @@ struct Arguments {
   InteractionsOptions options;
 };
 
-std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths) {
+std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths, const InteractionsOptions& options, Context& context) {
   std::vector<interactions::Take> takes;
-  for (const std::string& path : paths) takes.push_back(report::read_take(path));
+  for (const std::string& path : paths)
+    takes.push_back(options.pose_model.empty() ? report::read_take(path) : report::detect_poses(options.pose_model, path, options.network, context));
   return takes;
 }
 
@@ -113,13 +114,15 @@ int run(Arguments& args) {
   OptionTable table = args.options.table();
   if (!args.databases.empty()) args.given.emplace_back("scenelets", fmt::format("{}", fmt::join(args.databases, ";")));
   if (resolve_or_dump(table, args.common, "interactions", args.given)) return kSolved;
+  args.inputs.insert(args.inputs.end(), args.videos.begin(), args.videos.end());
+  if (!args.videos.empty() && args.options.pose_model.empty()) throw UsageError("--video needs --pose-model, or give its joints as TAKE.json");
   if (args.inputs.empty()) throw UsageError("TAKE.json is missing");
   require(args.out, "-o OUT");
 
   Session session(args.common);
   Context& context = session.context;
 
-  const std::vector<interactions::Take> takes = read_takes(args.inputs);
+  const std::vector<interactions::Take> takes = read_takes(args.inputs, args.options, context);
   const interactions::Database database = read_databases(args.options);
   io::OutputFolder out(args.out);
   interactions::Reconstruction r = interactions::reconstruct(takes, database, args.options.method, context);
@@ -144,6 +147,8 @@ OptionTable InteractionsOptions::table() {
   OptionTable table = interactions::describe(method);
   table.add({"scenelets", &scenelets, "", "databases of scenelets to be used as well, separated by ;", -kInf, kInf, {}});
   table.add({"shipped", &shipped, "", "the database that comes with the program is used", 0, 1, {}});
+  table.add({"pose_model", &pose_model, "", "pose network (.onnx, or .caffemodel with its .prototxt beside it) to be run over videos, given instead of takes", -kInf, kInf, {}});
+  append(table, report::describe(network));
   return table;
 }
 
@@ -157,11 +162,18 @@ Command add_interactions(CLI::App& app, const std::string& shell_command) {
   sub->add_option("--scenelets", args->databases, "a database of scenelets to be used as well; may be repeated")->type_name("DB")->allow_extra_args(false);
   sub->add_flag_function(
       "--no-shipped", [&given = args->given](std::int64_t) { given.emplace_back("shipped", "false"); }, "do without the database that comes with the program");
+  sub->add_option_function<std::string>(
+         "--pose-model", [&given = args->given](const std::string& text) { given.emplace_back("pose_model", text); },
+         "run this pose network (.onnx, or .caffemodel with its .prototxt beside it) over videos instead of reading takes")
+      ->type_name("FILE");
+  sub->add_option("--video", args->videos, "with --pose-model: a video of one person")->type_name("VIDEO")->allow_extra_args(false);
+  add_flags(*sub, report::describe(args->options.network), args->given);
   sub->add_flag("--no-report", args->no_report, "leave out report.html");
   add_flags(*sub, args->common);
   sub->footer(
       "Examples:\n  unseen interactions take.json -o out\n  unseen interactions monday.json tuesday.json -o out\n"
-      "  unseen interactions take.json -o out --scenelets office.bin --no-shipped");
+      "  unseen interactions take.json -o out --scenelets office.bin --no-shipped\n"
+      "  unseen interactions --pose-model body25.caffemodel --video room.mp4 -o out");
   return {sub, [args] { return run(*args); }};
 }
 

@@ -179,7 +179,8 @@ std::string interactions_bvh(const Person& person, double fps) {
     out += triple(100.0 * pose.col(pelvis), 4);
     for (std::size_t i = 0; i < nodes().size(); ++i) {
       angles[i] = angles_of(last[i].toRotationMatrix(), angles[i]);
-      out += " " + triple(180.0 / kPi * angles[i], 4);
+      out += ' ';
+      out += triple(180.0 / kPi * angles[i], 4);
     }
     out += "\n";
   }

@@ -62,10 +62,10 @@ struct Fit {
   double scale = 1;
 };
 
-Fit fit_of(const cv::Mat& frame, int height) {
-  const auto whole = [](double x) { return std::max(8, static_cast<int>(std::ceil(x / 8.0)) * 8); };
+Fit fit_of(const cv::Mat& frame, const PoseNetworkOptions& options) {
+  const double width = static_cast<double>(options.height) * frame.cols / frame.rows;
   Fit fit;
-  fit.input = {whole(static_cast<double>(height) * frame.cols / frame.rows), whole(height)};
+  fit.input = {options.width > 0 ? options.width : static_cast<int>(std::ceil(width / 8.0)) * 8, options.height};
   fit.scale = std::min(static_cast<double>(fit.input.width) / frame.cols, static_cast<double>(fit.input.height) / frame.rows);
   return fit;
 }
@@ -112,7 +112,7 @@ cv::Mat run_network(cv::dnn::Net& net, const cv::Mat& input, const std::string& 
     net.setInput(input);
     return net.forward();
   } catch (const cv::Exception&) {
-    throw InputError(model, "input", fmt::format("it does not take 1 × 3 × {} × {}", input.size[2], input.size[3]), "a network that takes pictures of any size, or another --height");
+    throw InputError(model, "input", fmt::format("it does not take 1 × 3 × {} × {}", input.size[2], input.size[3]), "a network that takes pictures of any size, or its own --pose-height and --pose-width");
   }
 }
 
@@ -120,10 +120,11 @@ cv::Mat run_network(cv::dnn::Net& net, const cv::Mat& input, const std::string& 
 
 OptionTable describe(PoseNetworkOptions& o) {
   OptionTable t;
-  t.add({"height", &o.height, "px", "height of the network's input", 8, 4096, {}});
-  t.add({"scale", &o.scale, "", "of colours 0…255 at the network's input", 1e-6, 1e3, {}});
-  t.add({"mean", &o.mean, "", "subtracted from colours first", 0, 255, {}});
-  t.add({"rgb", &o.rgb, "", "the network wants red first", 0, 1, {}});
+  t.add({"pose_height", &o.height, "px", "height of the pose network's input", 8, 4096, {}});
+  t.add({"pose_width", &o.width, "px", "width of it; 0: as the video's sides are to each other", 0, 8192, {}});
+  t.add({"pose_scale", &o.scale, "", "of colours 0…255 at it", 1e-6, 1e3, {}});
+  t.add({"pose_mean", &o.mean, "", "subtracted from colours before that", 0, 255, {}});
+  t.add({"pose_rgb", &o.rgb, "", "the pose network wants red first, not blue", 0, 1, {}});
   t.add({"hfov_deg", &o.hfov_deg, "deg", "horizontal field of view of the video's camera", 5, 170, {}});
   return t;
 }
@@ -138,7 +139,7 @@ Take detect_poses(const std::filesystem::path& model, const std::filesystem::pat
   cv::Mat frame;
   int count = 0;
   for (; clip.next(frame); ++count) {
-    const Fit fit = fit_of(frame, options.height);
+    const Fit fit = fit_of(frame, options);
     const cv::Mat output = run_network(net, input_of(frame, fit, options), model.string());
     const Detection d = detection_in(output, form_of(output, model.string()), fit, count);
     if (d.confidence.mean() >= kSeen) take.detections.push_back(d);

@@ -12,11 +12,12 @@ namespace unseen::report {
 
 /// How a picture becomes the input of a network.
 struct PoseNetworkOptions {
-  int height = 368;           ///< px of the input, rounded up to a multiple of 8; the width follows from the video
-  double scale = 1.0 / 255.0; ///< of colours, which are 0…255
-  double mean = 0;            ///< of colours, subtracted first
-  bool rgb = false;           ///< red comes first; else blue
-  double hfov_deg = 60;       ///< horizontal field of view of the video's camera
+  int height = 368;            ///< px of the input
+  int width = 0;               ///< px; 0: as the video's sides are to each other, rounded up to a multiple of 8
+  double scale = 1.0 / 255.0;  ///< of colours, which are 0…255
+  double mean = 0;             ///< of colours, subtracted first
+  bool rgb = false;            ///< red comes first; else blue
+  double hfov_deg = 60;        ///< horizontal field of view of the video's camera
 };
 
 /// The one description of these options; the table points into `options`.
