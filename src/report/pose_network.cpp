@@ -48,7 +48,8 @@ cv::dnn::Net read_network(const std::filesystem::path& model) {
   layout.replace_extension(".prototxt");
   try {
     const io::QuietOpenCv quiet;
-    const cv::dnn::Net net = model.extension() == ".onnx" ? cv::dnn::readNetFromONNX(model.string()) : cv::dnn::readNetFromCaffe(layout.string(), model.string());
+    const cv::dnn::Net net =
+        model.extension() == ".onnx" ? cv::dnn::readNetFromONNX(model.string()) : cv::dnn::readNetFromCaffe(layout.string(), model.string());
     if (!net.empty()) return net;
   } catch (const cv::Exception&) {
     // said below
@@ -72,7 +73,8 @@ Fit fit_of(const cv::Mat& frame, const PoseNetworkOptions& options) {
 
 cv::Mat input_of(const cv::Mat& frame, const Fit& fit, const PoseNetworkOptions& options) {
   cv::Mat small, whole(fit.input, CV_8UC3, cv::Scalar::all(options.mean));
-  const cv::Size size(std::min(fit.input.width, static_cast<int>(std::lround(fit.scale * frame.cols))), std::min(fit.input.height, static_cast<int>(std::lround(fit.scale * frame.rows))));
+  const cv::Size size(std::min(fit.input.width, static_cast<int>(std::lround(fit.scale * frame.cols))),
+                      std::min(fit.input.height, static_cast<int>(std::lround(fit.scale * frame.rows))));
   cv::resize(frame, small, size, 0, 0, cv::INTER_AREA);
   small.copyTo(whole(cv::Rect({0, 0}, size)));
   return cv::dnn::blobFromImage(whole, options.scale, {}, cv::Scalar::all(options.mean), options.rgb);
@@ -91,7 +93,8 @@ std::array<double, 3> peak(const cv::Mat& map, const Fit& fit) {
   cv::minMaxLoc(map, nullptr, &value, nullptr, &at);
   if (!(value > 0.0)) return {0, 0, 0};
   const auto near = [&](int x, int y) { return static_cast<double>(map.at<float>(std::clamp(y, 0, map.rows - 1), std::clamp(x, 0, map.cols - 1))); };
-  const double x = at.x + between(near(at.x - 1, at.y), value, near(at.x + 1, at.y)), y = at.y + between(near(at.x, at.y - 1), value, near(at.x, at.y + 1));
+  const double x = at.x + between(near(at.x - 1, at.y), value, near(at.x + 1, at.y)),
+               y = at.y + between(near(at.x, at.y - 1), value, near(at.x, at.y + 1));
   // Middles of cells to middles of pixels.
   return {(x + 0.5) * fit.input.width / map.cols / fit.scale - 0.5, (y + 0.5) * fit.input.height / map.rows / fit.scale - 0.5, value};
 }
@@ -112,7 +115,8 @@ cv::Mat run_network(cv::dnn::Net& net, const cv::Mat& input, const std::string& 
     net.setInput(input);
     return net.forward();
   } catch (const cv::Exception&) {
-    throw InputError(model, "input", fmt::format("it does not take 1 × 3 × {} × {}", input.size[2], input.size[3]), "a network that takes pictures of any size, or its own --pose-height and --pose-width");
+    throw InputError(model, "input", fmt::format("it does not take 1 × 3 × {} × {}", input.size[2], input.size[3]),
+                     "a network that takes pictures of any size, or its own --pose-height and --pose-width");
   }
 }
 
@@ -134,8 +138,10 @@ Take detect_poses(const std::filesystem::path& model, const std::filesystem::pat
   io::Clip clip(video.string());
   Take take;
   take.name = video.string();
-  if (clip.fps() > 0) take.fps = clip.fps();
-  else take.remarks.push_back(fmt::format("the video has no frame rate: {} assumed", take.fps));
+  if (clip.fps() > 0)
+    take.fps = clip.fps();
+  else
+    take.remarks.push_back(fmt::format("the video has no frame rate: {} assumed", take.fps));
   cv::Mat frame;
   int count = 0;
   for (; clip.next(frame); ++count) {
@@ -147,7 +153,8 @@ Take detect_poses(const std::filesystem::path& model, const std::filesystem::pat
     context.progress(clip.announced() > 0 ? std::min(1.0, static_cast<double>(count) / clip.announced()) : 0.0);
   }
   take.camera_assumed = true;
-  if (take.detections.empty()) throw InputError(video.string(), "", fmt::format("nobody in {} frames", count), "a video in which the network sees somebody");
+  if (take.detections.empty())
+    throw InputError(video.string(), "", fmt::format("nobody in {} frames", count), "a video in which the network sees somebody");
   return take;
 }
 

@@ -61,13 +61,28 @@ inline std::string little_onnx(const std::vector<std::array<float, 3>>& weights,
   std::vector<float> kernel;
   for (const auto& w : weights)
     for (const float channel : w) kernel.insert(kernel.end(), 4, channel / 4);
-  const std::string convolution = Message().bytes(1, "picture").bytes(1, "weights").bytes(1, "biases").bytes(2, "sums").bytes(3, "convolution").bytes(4, "Conv")
-                                      .bytes(5, ints("kernel_shape", {2, 2})).bytes(5, ints("strides", {2, 2})).bytes(5, ints("pads", {0, 0, 0, 0})).text();
+  const std::string convolution = Message()
+                                      .bytes(1, "picture")
+                                      .bytes(1, "weights")
+                                      .bytes(1, "biases")
+                                      .bytes(2, "sums")
+                                      .bytes(3, "convolution")
+                                      .bytes(4, "Conv")
+                                      .bytes(5, ints("kernel_shape", {2, 2}))
+                                      .bytes(5, ints("strides", {2, 2}))
+                                      .bytes(5, ints("pads", {0, 0, 0, 0}))
+                                      .text();
   const std::string relu = Message().bytes(1, "sums").bytes(2, "maps").bytes(3, "relu").bytes(4, "Relu").text();
   const auto count = static_cast<std::uint64_t>(weights.size()), w = static_cast<std::uint64_t>(width), h = static_cast<std::uint64_t>(height);
-  const std::string graph = Message().bytes(1, convolution).bytes(1, relu).bytes(2, "little")
-                                .bytes(5, tensor("weights", {count, 3, 2, 2}, kernel)).bytes(5, tensor("biases", {count}, biases))
-                                .bytes(11, value_info("picture", {1, 3, h, w})).bytes(12, value_info("maps", {1, count, h / 2, w / 2})).text();
+  const std::string graph = Message()
+                                .bytes(1, convolution)
+                                .bytes(1, relu)
+                                .bytes(2, "little")
+                                .bytes(5, tensor("weights", {count, 3, 2, 2}, kernel))
+                                .bytes(5, tensor("biases", {count}, biases))
+                                .bytes(11, value_info("picture", {1, 3, h, w}))
+                                .bytes(12, value_info("maps", {1, count, h / 2, w / 2}))
+                                .text();
   return Message().number(1, 7).bytes(7, graph).bytes(8, Message().bytes(1, "").number(2, 11).text()).text();
 }
 

@@ -29,7 +29,9 @@ std::array<float, 3> color(int label) {
 }
 
 /// Where joint j is in a frame; no two dots touch.
-Vec2 place(int j, int frame) { return {40.0 + 50.0 * (j % 8) + 3.0 * frame, 50.0 + 110.0 * (j / 8) + 2.5 * frame}; }
+Vec2 place(int j, int frame) {
+  return {40.0 + 50.0 * (j % 8) + 3.0 * frame, 50.0 + 110.0 * (j / 8) + 2.5 * frame};
+}
 
 class PoseNetwork : public testing::Test {
  protected:
@@ -48,8 +50,8 @@ class PoseNetwork : public testing::Test {
         const Vec2 p = place(j, f);
         for (int radius = 7; radius > 0; --radius) {  // brightest in the middle
           const double light = 255 * (1.0 - 0.004 * (radius - 1));
-          cv::circle(frame, {static_cast<int>(std::lround(16 * p.x())), static_cast<int>(std::lround(16 * p.y()))}, 16 * radius, cv::Scalar(light * c[0], light * c[1], light * c[2]),
-                     cv::FILLED, cv::LINE_AA, 4);
+          cv::circle(frame, {static_cast<int>(std::lround(16 * p.x())), static_cast<int>(std::lround(16 * p.y()))}, 16 * radius,
+                     cv::Scalar(light * c[0], light * c[1], light * c[2]), cv::FILLED, cv::LINE_AA, 4);
         }
       }
       writer.write(frame);
@@ -62,7 +64,7 @@ class PoseNetwork : public testing::Test {
     std::vector<std::array<float, 3>> weights;
     std::vector<float> biases;
     for (int c = 0; c < channels; ++c) {
-      const float gain = 20;
+      const float gain = 40;
       const auto w = c < known ? color(c) : std::array<float, 3>{0, 0, 0};
       weights.push_back({gain * w[0], gain * w[1], gain * w[2]});
       biases.push_back(c < known ? 1 - gain : 0.5F);
@@ -95,7 +97,7 @@ TEST_F(PoseNetwork, FindsTheDotOfEachJoint) {
   for (const Detection& d : take.detections)
     for (int j = 0; j < kJoints; ++j) {
       EXPECT_LT((d.pixels.col(j) - place(j, d.frame)).norm(), 3.0) << d.frame << " " << j;
-      EXPECT_NEAR(d.confidence[j], 1.0, 0.1);
+      EXPECT_NEAR(d.confidence[j], 1.0, 0.2);
     }
 }
 
@@ -115,14 +117,19 @@ TEST_F(PoseNetwork, KnowsTheOrderOfOpenPose) {
   // Of BODY_25: nose 0, neck 1, right wrist 4, left wrist 7, middle of the hips 8, right hip 9, left ankle 14.
   std::array<int, kJoints> labels;
   labels.fill(-1);
-  labels[head] = 0, labels[thorax] = 1, labels[right_wrist] = 4, labels[left_wrist] = 7, labels[pelvis] = 8, labels[right_hip] = 9, labels[left_ankle] = 14;
+  labels[head] = 0, labels[thorax] = 1, labels[right_wrist] = 4, labels[left_wrist] = 7, labels[pelvis] = 8, labels[right_hip] = 9,
+  labels[left_ankle] = 14;
   for (const int channels : {25, 26, 78}) {
     const Take take = detect_poses(network(channels, 25), video(labels), same_size(), context_);
     ASSERT_EQ(take.detections.size(), 4u);
     for (const Detection& d : take.detections)
       for (int j = 0; j < kJoints; ++j) {
-        if (labels[static_cast<std::size_t>(j)] >= 0) EXPECT_LT((d.pixels.col(j) - place(j, d.frame)).norm(), 7.0) << channels << " " << j;
-        else if (j != neck) EXPECT_EQ(d.confidence[j], 0.0) << channels << " " << j;
+        if (j == neck) continue;  // made from its neighbours
+        const bool there = labels[static_cast<std::size_t>(j)] >= 0;
+        EXPECT_NEAR(d.confidence[j], there ? 1.0 : 0.0, 0.25) << channels << " " << j;
+        if (there) {
+          EXPECT_LT((d.pixels.col(j) - place(j, d.frame)).norm(), 3.0) << channels << " " << j;
+        }
       }
   }
 }

@@ -30,6 +30,7 @@ OptionTable describe(PoseNetworkOptions& options);
 ///   25, 26, 78   BODY_25 of OpenPose (the same)
 /// A joint is at the peak of its map, its confidence the map's value there, in [0,1]. Throws InputError for a network or video that cannot be
 /// read or is of none of these forms, and for a video in which nobody is.
-interactions::Take detect_poses(const std::filesystem::path& model, const std::filesystem::path& video, const PoseNetworkOptions& options, Context& context);
+interactions::Take detect_poses(const std::filesystem::path& model, const std::filesystem::path& video, const PoseNetworkOptions& options,
+                                Context& context);
 
 }  // namespace unseen::report
