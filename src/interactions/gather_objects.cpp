@@ -50,7 +50,7 @@ double peak_share(const std::vector<UsedObject>& in_use, const std::vector<std::
     if (const auto after = shares.find({at.first, at.second + 1}); after != shares.end()) sum += after->second;
     peak = std::max(peak, sum / 3);
   }
-  return peak;
+  return std::min(1.0, peak);
 }
 
 /// The object that they describe: category of most mass, its most typical one moved to their mean place.
