@@ -103,8 +103,8 @@ TEST(SettleObjects, LeavesWhatIsInNobodysWay) {
 TEST(SettleObjects, OfTwoInOnePlaceTheLessSureGoes) {
   std::vector<FoundObject> objects = {found(0, "chair", {0, 0}, 0.6), found(1, "chair", {0.03, 0.02}, 0.8), found(2, "chair", {2, 2}, 0.1)};
   std::vector<Passing> people;  // all around, so that neither can be pushed away
-  for (int i = 0; i < 200; ++i) {
-    const double radius = 0.36 + 0.1 * (i % 5), angle = 2.4 * i;
+  for (int i = 0; i < 3000; ++i) {
+    const double radius = 0.36 + 0.05 * (i % 10), angle = 2.4 * i;
     people.push_back(passing({radius * std::cos(angle), radius * std::sin(angle), 0.4}));
   }
   settle_objects(objects, people);
