@@ -146,7 +146,8 @@ TEST(Motion, HasOnePoseAFrameWithADetection) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
       EXPECT_EQ(frames[i].frame, t.story.sights[i].frame);
       EXPECT_TRUE(frames[i].pose.allFinite());
-      const bool window = std::any_of(t.story.windows.begin(), t.story.windows.end(), [&](const Choice& w) { return w.first <= frames[i].frame && frames[i].frame <= w.last; });
+      const auto covers = [&](const Choice& w) { return w.first <= frames[i].frame && frames[i].frame <= w.last; };
+      const bool window = std::any_of(t.story.windows.begin(), t.story.windows.end(), covers);
       EXPECT_EQ(frames[i].source, window ? PoseSource::scenelet : PoseSource::pose) << frames[i].frame;
       in_windows += window;
     }
@@ -177,7 +178,8 @@ TEST(Motion, BendsButDoesNotStretch) {
       if (!lent) lent = sights[i].local;
       ASSERT_TRUE(lent);
       for (const auto& [a, b] : kBones)
-        EXPECT_NEAR((frames[i].pose.col(a) - frames[i].pose.col(b)).norm(), (lent->col(a) - lent->col(b)).norm(), 1e-9) << seed << ", frame " << frames[i].frame;
+        EXPECT_NEAR((frames[i].pose.col(a) - frames[i].pose.col(b)).norm(), (lent->col(a) - lent->col(b)).norm(), 1e-9)
+            << seed << ", frame " << frames[i].frame;
     }
   }
 }
@@ -185,7 +187,9 @@ TEST(Motion, BendsButDoesNotStretch) {
 TEST(Motion, SmoothingHardlyShortensLimbs) {
   for (const int seed : kSeeds) {
     const Told& t = told(seed);
-    const auto frames = t.motion(), single = find_motion(every_other(t.story.sights), t.story.readings, t.story.windows, report::shipped_database(), t.story.path, t.view, t.synth.take.fps);
+    const auto sights = every_other(t.story.sights);
+    const auto frames = t.motion(),
+               single = find_motion(sights, t.story.readings, t.story.windows, report::shipped_database(), t.story.path, t.view, t.synth.take.fps);
     std::vector<double> ratios;
     for (std::size_t i = 0; i < single.size(); ++i)
       for (const auto& [a, b] : kBones)

@@ -98,7 +98,9 @@ TEST(Path, IsTheDenseSolutionOfItsLeastSquares) {
       int row = 0;
       for (std::size_t i = 0; i < readings.size(); ++i, row += 2) {
         const Vec2 along = readings[i].pelvis.normalized(), across(-along.y(), along.x());
-        const Eigen::Matrix2d covariance = 5 * (0.06 * 0.06 * across * across.transpose() + std::pow(0.09 * readings[i].pelvis.norm(), 2) * along * along.transpose() + readings[i].spread);
+        const double depth_sd = 0.09 * readings[i].pelvis.norm();
+        const Eigen::Matrix2d covariance =
+            5 * (0.06 * 0.06 * across * across.transpose() + depth_sd * depth_sd * along * along.transpose() + readings[i].spread);
         whiten.push_back(covariance.inverse().llt().matrixU());
         rows.block<2, 2>(row, 2 * (readings[i].frame - kFirst)) = std::sqrt(trust[i]) * whiten.back();
         values.segment<2>(row) = std::sqrt(trust[i]) * whiten.back() * readings[i].pelvis;
@@ -106,7 +108,10 @@ TEST(Path, IsTheDenseSolutionOfItsLeastSquares) {
       const double step = std::sqrt(kFps) / 0.35 * (smooth ? 1.0 : std::sqrt(1e-3));
       for (int k = 0; k + 1 < kCount; ++k, row += 2) {
         const double frame = kFirst + k + 0.5;
-        const auto speed = [](const Reading& r) { return r.matches[0].scenelet == 0 ? Vec2(0, 0) : Vec2(std::cos(r.matches[0].placement.angle), std::sin(r.matches[0].placement.angle)); };
+        const auto speed = [](const Reading& r) {
+          const double angle = r.matches[0].placement.angle;
+          return r.matches[0].scenelet == 0 ? Vec2(0, 0) : Vec2(std::cos(angle), std::sin(angle));
+        };
         Vec2 velocity = speed(readings.back());
         for (std::size_t i = 0; i + 1 < readings.size(); ++i)
           if (readings[i].frame < frame && frame < readings[i + 1].frame) {

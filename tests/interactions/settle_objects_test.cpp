@@ -74,7 +74,8 @@ TEST(SettleObjects, EndsWhereASearchOfTheGridEnds) {
   Random random(1);
   int moved = 0;
   for (int i = 0; i < 20; ++i) {
-    std::vector<FoundObject> objects = {found(4, i % 2 ? "chair" : "table", {random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3)}, 1, random.uniform(-kPi, kPi))};
+    const Vec2 at(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3));
+    std::vector<FoundObject> objects = {found(4, i % 2 ? "chair" : "table", at, 1, random.uniform(-kPi, kPi))};
     const double heading = random.uniform(-kPi, kPi);
     std::vector<Passing> way = walk(-2 * Vec2(std::cos(heading), std::sin(heading)), 2 * Vec2(std::cos(heading), std::sin(heading)), 30);
     for (Passing& p : way) p.joints[0].z() = random.uniform(0.5, 0.9);
