@@ -20,16 +20,24 @@ std::string help_of(const Option& option) {
   return facts.empty() ? option.help : fmt::format("{} ({})", option.help, fmt::join(facts, "; "));
 }
 
+/// "true" or "false" for all words that flags know; others as they are, for the option to refuse.
+std::string truth_of(const std::string& text) {
+  try {
+    return CLI::detail::to_flag_value(text) > 0 ? "true" : "false";
+  } catch (const std::logic_error&) {
+    return text;
+  }
+}
+
 }  // namespace
 
 void add_flags(CLI::App& app, const OptionTable& table, GivenOptions& given) {
   for (const Option& option : table.all()) {
     const std::string name = option.name;
     if (std::holds_alternative<bool*>(option.target)) {
-      app.add_flag_function(
-          option.flag(),
-          [name, &given](std::int64_t n) { given.emplace_back(name, n > 0 ? "true" : "false"); },
-          help_of(option));
+      app.add_flag(option.flag())->description(help_of(option))->each([name, &given](const std::string& text) {
+        given.emplace_back(name, truth_of(text));
+      });
     } else {
       const bool is_list = std::holds_alternative<std::vector<double>*>(option.target);
       app.add_option_function<std::string>(
@@ -48,7 +56,7 @@ void resolve(OptionTable& table, const std::string& config_file, const std::stri
              const GivenOptions& given) {
   if (!config_file.empty())
     io::apply_config(table, config_file, section,
-                     {"planes", "cuboids", "collision", "interactions", "convert", "evaluate", "synth"});
+                     {"planes", "cuboids", "collision", "interactions", "scenelets", "convert", "evaluate", "synth"});
   for (const auto& [name, text] : given) table.set_text(name, text, kCommandLine);
 }
 

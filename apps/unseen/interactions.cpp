@@ -31,7 +31,7 @@ namespace {
 
 /// Everything that `unseen interactions` can be told.
 struct Arguments {
-  std::vector<std::string> inputs, databases;
+  std::vector<std::string> inputs, databases, videos;
   std::string out, shell_command;
   CommonFlags common;
   bool no_report = false;
@@ -39,9 +39,10 @@ struct Arguments {
   InteractionsOptions options;
 };
 
-std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths) {
+std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths, const InteractionsOptions& options, Context& context) {
   std::vector<interactions::Take> takes;
-  for (const std::string& path : paths) takes.push_back(report::read_take(path));
+  for (const std::string& path : paths)
+    takes.push_back(options.pose_model.empty() ? report::read_take(path) : report::detect_poses(options.pose_model, path, options.network, context));
   return takes;
 }
 
@@ -79,20 +80,23 @@ void write_files(const std::vector<interactions::Take>& takes, interactions::Rec
   const report::InputRecord input = record_of(args.inputs, context);
   for (std::size_t p = 0; p < r.people.size(); ++p) {
     const std::string motion = report::interactions_bvh(r.people[p], r.fps);
-    if (!motion.empty()) write_text(out.file(report::bvh_name(p)), motion);
+    if (!motion.empty())
+      write_text(out.file(report::bvh_name(p)), motion);
     else if (!r.people[p].frames.empty())
-      r.summary.warnings.push_back(fmt::format("{} left out: from frame {} to {} are more than {} frames", report::bvh_name(p), r.people[p].frames.front().frame,
-                                               r.people[p].frames.back().frame, report::kMostBvhFrames));
+      r.summary.warnings.push_back(fmt::format("{} left out: from frame {} to {} are more than {} frames", report::bvh_name(p),
+                                               r.people[p].frames.front().frame, r.people[p].frames.back().frame, report::kMostBvhFrames));
   }
   const std::string evidence = write_evidence(r.evidence, out);
   if (!args.no_report)
-    write_text(out.file("report.html"),
-               report::page_of(report::interactions_title(input), {report::interactions_scene(r, input, table, args.shell_command, takes, evidence)}));
+    write_text(out.file("report.html"), report::page_of(report::interactions_title(input),
+                                                        {report::interactions_scene(r, input, table, args.shell_command, takes, evidence)}));
   write_text(out.file("result.json"), report::interactions_json(r, input, table));
   write_text(out.file("scene.glb"), report::interactions_glb(r));
 }
 
-std::string counted(std::size_t count, const char* one, const char* more) { return fmt::format("{} {}", count, count == 1 ? one : more); }
+std::string counted(std::size_t count, const char* one, const char* more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
+}
 
 void print_summary(const interactions::Reconstruction& r, const Arguments& args) {
   for (const interactions::FoundObject& found : r.objects) {
@@ -106,20 +110,23 @@ void print_summary(const interactions::Reconstruction& r, const Arguments& args)
   double seconds = 0;
   for (const auto& stage : r.summary.seconds) seconds += stage.second;
   fmt::print("{}, {}, {:.1f} s of work\n", counted(r.people.size(), "person", "people"), counted(frames, "pose", "poses"), seconds);
-  fmt::print("{}: {}\n", args.no_report ? "result" : "report", (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
+  fmt::print("{}: {}\n", args.no_report ? "result" : "report",
+             (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
 }
 
 int run(Arguments& args) {
   OptionTable table = args.options.table();
   if (!args.databases.empty()) args.given.emplace_back("scenelets", fmt::format("{}", fmt::join(args.databases, ";")));
   if (resolve_or_dump(table, args.common, "interactions", args.given)) return kSolved;
+  args.inputs.insert(args.inputs.end(), args.videos.begin(), args.videos.end());
+  if (!args.videos.empty() && args.options.pose_model.empty()) throw UsageError("--video needs --pose-model, or give its joints as TAKE.json");
   if (args.inputs.empty()) throw UsageError("TAKE.json is missing");
   require(args.out, "-o OUT");
 
   Session session(args.common);
   Context& context = session.context;
 
-  const std::vector<interactions::Take> takes = read_takes(args.inputs);
+  const std::vector<interactions::Take> takes = read_takes(args.inputs, args.options, context);
   const interactions::Database database = read_databases(args.options);
   io::OutputFolder out(args.out);
   interactions::Reconstruction r = interactions::reconstruct(takes, database, args.options.method, context);
@@ -144,6 +151,14 @@ OptionTable InteractionsOptions::table() {
   OptionTable table = interactions::describe(method);
   table.add({"scenelets", &scenelets, "", "databases of scenelets to be used as well, separated by ;", -kInf, kInf, {}});
   table.add({"shipped", &shipped, "", "the database that comes with the program is used", 0, 1, {}});
+  table.add({"pose_model",
+             &pose_model,
+             "",
+             "pose network (.onnx, or .caffemodel with its .prototxt beside it) to be run over videos, given instead of takes",
+             -kInf,
+             kInf,
+             {}});
+  append(table, report::describe(network));
   return table;
 }
 
@@ -151,17 +166,28 @@ Command add_interactions(CLI::App& app, const std::string& shell_command) {
   auto args = std::make_shared<Arguments>();
   args->shell_command = shell_command;
   CLI::App* sub = app.add_subcommand("interactions", "Find the furniture that people use, and their whole motion, from 2D joints alone");
-  sub->add_option("TAKE", args->inputs, "take files (TAKE.json): the camera and the joints that a detector saw; several of one room and camera make one scene");
+  sub->add_option("TAKE", args->inputs,
+                  "take files (TAKE.json): the camera and the joints that a detector saw; several of one room and camera make one scene");
   sub->add_option("-o", args->out, "the folder for the result; made if it does not exist")->type_name("OUT");
   add_flags(*sub, interactions::describe(args->options.method), args->given);
-  sub->add_option("--scenelets", args->databases, "a database of scenelets to be used as well; may be repeated")->type_name("DB")->allow_extra_args(false);
+  sub->add_option("--scenelets", args->databases, "a database of scenelets to be used as well; may be repeated")
+      ->type_name("DB")
+      ->allow_extra_args(false);
   sub->add_flag_function(
-      "--no-shipped", [&given = args->given](std::int64_t) { given.emplace_back("shipped", "false"); }, "do without the database that comes with the program");
+      "--shipped,!--no-shipped", [&given = args->given](std::int64_t n) { given.emplace_back("shipped", n > 0 ? "true" : "false"); },
+      "use the database that comes with the program (default), or do without it");
+  sub->add_option_function<std::string>(
+         "--pose-model", [&given = args->given](const std::string& text) { given.emplace_back("pose_model", text); },
+         "run this pose network (.onnx, or .caffemodel with its .prototxt beside it) over videos instead of reading takes")
+      ->type_name("FILE");
+  sub->add_option("--video", args->videos, "with --pose-model: a video of one person")->type_name("VIDEO")->allow_extra_args(false);
+  add_flags(*sub, report::describe(args->options.network), args->given);
   sub->add_flag("--no-report", args->no_report, "leave out report.html");
   add_flags(*sub, args->common);
   sub->footer(
       "Examples:\n  unseen interactions take.json -o out\n  unseen interactions monday.json tuesday.json -o out\n"
-      "  unseen interactions take.json -o out --scenelets office.bin --no-shipped");
+      "  unseen interactions take.json -o out --scenelets office.bin --no-shipped\n"
+      "  unseen interactions --pose-model body25.caffemodel --video room.mp4 -o out");
   return {sub, [args] { return run(*args); }};
 }
 

@@ -7,6 +7,7 @@
 
 #include "unseen/core/options.h"
 #include "unseen/interactions/options.h"
+#include "unseen/report/pose_network.h"
 
 namespace unseen::cli {
 
@@ -17,6 +18,8 @@ struct InteractionsOptions {
   interactions::Options method;
   std::string scenelets;  ///< databases of --scenelets, separated by ";"
   bool shipped = true;    ///< the database that comes with the program counts too
+  std::string pose_model;  ///< a pose network; with it the input is a video
+  report::PoseNetworkOptions network;
 
   /// The table points into this.
   OptionTable table();

@@ -75,6 +75,7 @@ std::string command_of(const report::StoredRun& run, const std::string& out, Opt
     words.push_back("--" + name);
     std::replace(words.back().begin(), words.back().end(), '_', '-');
     if (!std::holds_alternative<bool>(value)) words.push_back(table.text_of(name));
+    else if (!std::get<bool>(value)) words.back() += "=false";
   }
   return shell_command(words);
 }

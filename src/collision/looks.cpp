@@ -9,8 +9,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "collision/clip.h"
 #include "collision/views.h"
+#include "io/clip.h"
 
 namespace unseen::collision {
 namespace {
@@ -176,7 +176,7 @@ void read_pictures(const Shot& shot, const ShotCamera& camera, const Footage& fo
   for (std::vector<Look>* looks : flights)
     for (Look& look : *looks) wanted.emplace(look.frame, &look);
   if (wanted.empty() || shot.video.empty()) return;
-  Clip clip(shot.video);
+  io::Clip clip(shot.video);
   cv::Mat frame;
   for (int k = 0; k <= wanted.rbegin()->first && clip.next(frame); ++k) {
     context.check();

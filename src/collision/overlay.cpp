@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "collision/clip.h"
 #include "collision/overlay_draw.h"
+#include "io/clip.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -52,7 +52,7 @@ OverlayPicture picture_of(const cv::Mat& frame, double time) {
 std::vector<OverlayPicture> write_overlay(const Shot& shot, const Reconstruction& r, const std::filesystem::path& video, Context& context) {
   constexpr double kFast = 60.0, kSlow = 30.0;  // frames/s
   if (shot.video.empty() || r.frames.empty() || !(r.fps > 0)) return {};
-  Clip clip(shot.video);
+  io::Clip clip(shot.video);
   const OverlayPen pen(shot, r);
   const std::array<int, 2> range = shown_frames(shot, r);
   const PictureChoice choice = choose_pictures(r, range);

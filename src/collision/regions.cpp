@@ -9,10 +9,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "collision/background.h"
-#include "collision/clip.h"
 #include "collision/foreground.h"
 #include "collision/hygiene.h"
 #include "collision/stabilise.h"
+#include "io/clip.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -64,7 +64,7 @@ void set_view(const Shot& shot, cv::Size size, Survey& survey) {
 int tracked_scale(cv::Size size) { return std::max(1, (size.width + kTrackedWidth - 1) / kTrackedWidth); }
 
 /// First pass: time stamps, changes, the camera's motion, and frames for the background.
-Survey survey_clip(const Shot& shot, Clip& clip, Context& context) {
+Survey survey_clip(const Shot& shot, io::Clip& clip, Context& context) {
   Survey survey;
   survey.first = shot.frames ? (*shot.frames)[0] : 0;
   cv::Mat frame, gray, small, before;
@@ -90,7 +90,7 @@ Survey survey_clip(const Shot& shot, Clip& clip, Context& context) {
 }
 
 /// Throws for what cannot be used at all, warns of what can.
-void check_file(const Shot& shot, const Clip& clip, const Survey& survey, Context& context) {
+void check_file(const Shot& shot, const io::Clip& clip, const Survey& survey, Context& context) {
   const int decoded = static_cast<int>(survey.stamps.size());
   if (decoded < 2)
     throw InputError(shot.video, "frames", decoded == 0 ? "no frame that can be decoded" : "one frame", "a video of several frames");
@@ -158,7 +158,7 @@ std::vector<cv::Mat> registered(const Survey& survey, const Footage& footage) {
 
 /// Second pass: the regions of each frame that shows something.
 void second_pass(const Shot& shot, const Survey& survey, const Background& background, Footage& footage, Context& context) {
-  Clip clip(shot.video);
+  io::Clip clip(shot.video);
   std::vector<double> sorted = survey.brightness;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   const double black = kBlack * sorted[sorted.size() / 2];
@@ -182,7 +182,7 @@ void second_pass(const Shot& shot, const Survey& survey, const Background& backg
 }  // namespace
 
 Footage find_regions(const Shot& shot, Context& context) {
-  Clip clip(shot.video);
+  io::Clip clip(shot.video);
   const Survey survey = survey_clip(shot, clip, context);
   check_file(shot, clip, survey, context);
   Footage footage;

@@ -25,7 +25,8 @@ EvidencePicture picture_of(const EvidenceMap& map, int pixels_per_cell) {
       std::array<float, 3> light = {};
       for (std::size_t s = 0; s < kHues.size(); ++s) {
         float likeliest = 0;
-        for (std::size_t turn = 0; turn < EvidenceMap::kTurns; ++turn) likeliest = std::max(likeliest, map.probability[(s * EvidenceMap::kTurns + turn) * ground + cell]);
+        for (std::size_t turn = 0; turn < EvidenceMap::kTurns; ++turn)
+          likeliest = std::max(likeliest, map.probability[(s * EvidenceMap::kTurns + turn) * ground + cell]);
         for (std::size_t c = 0; c < 3; ++c) light[c] += std::min(likeliest, 1.0f) * kHues[s][c];
       }
       std::array<std::uint8_t, 3>& pixel = picture.pixels.emplace_back();

@@ -18,6 +18,23 @@ constexpr std::array<Habit, 3> kHabits = {{{0.16, 0.07, 0.5, 0.5}, {0.30, 0.10, 
 constexpr double kReadingTime = 0.2;  // s that a reading stands for
 constexpr double kGate = 2.5;  // sd
 
+/// How far the object reaches along its longer side on the ground, from its middle. m
+double reach_of(const Object& object) {
+  double reach = 0;
+  for (const Part& part : object.parts) reach = std::max(reach, part.box.half_size.head<2>().maxCoeff());
+  return reach;
+}
+
+/// Are two finds of one superclass one thing? Those within 0.8 m are, and two ends of a couch or bed; but two chairs can stand side by side.
+bool same_thing(const Object& a, const Object& b, const Vec2& camera) {
+  constexpr double kNear = 0.8, kBeside = 0.35, kSmallSeat = 0.35;  // m; the last of half a seat
+  const Vec2 off = (a.center() - b.center()).head<2>();
+  const Vec2 along = (0.5 * (a.center() + b.center()).head<2>() - camera).normalized();
+  const double side = std::abs(off.x() * along.y() - off.y() * along.x()), larger = std::max(reach_of(a), reach_of(b));
+  if (a.superclass() == Superclass::sit && larger < kSmallSeat) return off.norm() < kNear && side < kBeside;
+  return off.norm() < std::max(kNear, a.superclass() == Superclass::sit ? larger + kBeside : 0.0);
+}
+
 /// Squared distance of two places in standard deviations.
 double apart(const Vec2& a, const Vec2& b, const Habit& habit, const Vec2& camera) {
   const Vec2 middle = 0.5 * (a + b) - camera, along = middle.normalized(), off = a - b;
@@ -50,7 +67,7 @@ double peak_share(const std::vector<UsedObject>& in_use, const std::vector<std::
     if (const auto after = shares.find({at.first, at.second + 1}); after != shares.end()) sum += after->second;
     peak = std::max(peak, sum / 3);
   }
-  return peak;
+  return std::min(1.0, peak);
 }
 
 /// The object that they describe: category of most mass, its most typical one moved to their mean place.
@@ -125,6 +142,14 @@ Gathered gather_objects(const std::vector<UsedObject>& in_use, const View& view)
       if (share < habit.least_share) continue;
       FoundObject found;
       found.object = describe(in_use, members);
+      const auto known = std::find_if(gathered.objects.begin(), gathered.objects.end(), [&](const FoundObject& other) {
+        return other.object.superclass() == found.object.superclass() && same_thing(other.object, found.object, camera);
+      });
+      if (known != gathered.objects.end()) {
+        auto& all = gathered.members[static_cast<std::size_t>(known - gathered.objects.begin())];
+        all.insert(all.end(), members.begin(), members.end());
+        continue;
+      }
       found.object.id = static_cast<int>(gathered.objects.size());
       found.confidence = share * (1 - std::exp(-mass / habit.least_time));
       gathered.objects.push_back(std::move(found));

@@ -56,7 +56,7 @@ Vec3 place_pelvis(const Draft& draft, const Sight& sight, const Vec3& camera) {
 
 /// Moves each joint that is seen towards its ray, and its limb's far joints along with it; bones keep their lengths.
 Pose bend(const Pose& pose, const Sight& sight, const Vec3& camera) {
-  constexpr double kFollow = 0.8;  // of the way to the ray, for a joint seen for sure
+  constexpr double kFollow = 0.5;  // of the way to the ray, for a joint seen for sure
   Pose bent = pose;
   for (const auto& [parent, child] : kBones) {
     const Vec3 bone = pose.col(child) - pose.col(parent);

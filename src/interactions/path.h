@@ -13,6 +13,7 @@ struct Path {
   int first = 0;
   std::vector<Vec2> positions;
 
+  int last() const { return first + static_cast<int>(positions.size()) - 1; }
   const Vec2& at(int frame) const { return positions[static_cast<std::size_t>(std::clamp(frame - first, 0, static_cast<int>(positions.size()) - 1))]; }
 };
 

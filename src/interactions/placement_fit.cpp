@@ -4,7 +4,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace unseen::interactions {
 namespace {
@@ -14,18 +16,22 @@ double best_angle(const Eigen::Matrix2d& quadratic, const Vec2& linear) {
   const double c1 = 2 * linear.x(), s1 = 2 * linear.y();
   const double c2 = 0.5 * (quadratic(0, 0) - quadratic(1, 1)), s2 = quadratic(0, 1);
   const auto value = [&](double t) { return c1 * std::cos(t) + s1 * std::sin(t) + c2 * std::cos(2 * t) + s2 * std::sin(2 * t); };
-  constexpr int kSamples = 16;  // it has at most two valleys
-  double best = 0, least = value(0);
-  for (int i = 1; i < kSamples; ++i)
-    if (const double angle = 2 * kPi * i / kSamples, v = value(angle); v < least) {
+  constexpr int kSamples = 16;  // it has at most two valleys, and they may be nearly as deep
+  std::array<double, kSamples> values;
+  for (int i = 0; i < kSamples; ++i) values[i] = value(2 * kPi * i / kSamples);
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kSamples; ++i) {
+    if (values[i] > values[(i + 1) % kSamples] || values[i] > values[(i + kSamples - 1) % kSamples]) continue;
+    double angle = 2 * kPi * i / kSamples;
+    for (int round = 0; round < 6; ++round) {
+      const double slope = -c1 * std::sin(angle) + s1 * std::cos(angle) - 2 * c2 * std::sin(2 * angle) + 2 * s2 * std::cos(2 * angle);
+      const double bend = -c1 * std::cos(angle) - s1 * std::sin(angle) - 4 * c2 * std::cos(2 * angle) - 4 * s2 * std::sin(2 * angle);
+      angle -= std::clamp(slope / std::max(std::abs(bend), 1e-12), -kPi / kSamples, kPi / kSamples);
+    }
+    if (const double v = value(angle); v < least) {
       least = v;
       best = angle;
     }
-  for (int i = 0; i < 6; ++i) {
-    const double slope = -c1 * std::sin(best) + s1 * std::cos(best) - 2 * c2 * std::sin(2 * best) + 2 * s2 * std::cos(2 * best);
-    const double bend = -c1 * std::cos(best) - s1 * std::sin(best) - 4 * c2 * std::cos(2 * best) - 4 * s2 * std::sin(2 * best);
-    if (!(bend > 0)) break;
-    best -= std::clamp(slope / bend, -kPi / kSamples, kPi / kSamples);
   }
   return best;
 }

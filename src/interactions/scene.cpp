@@ -32,6 +32,13 @@ double interpolated_likelihood(const std::vector<Reading>& readings, int frame) 
   return (1 - share) * before.likelihood + share * after->likelihood;
 }
 
+/// The price of an object, by superclass: with less confidence, most objects of generated takes were false. Seats and tables need a window as well.
+bool convincing(const FoundObject& found) {
+  constexpr std::array<double, 3> kLeast = {0.8, 0.5, 0.7};
+  const Superclass superclass = found.object.superclass();
+  return found.confidence >= kLeast[static_cast<std::size_t>(superclass)] && (superclass == Superclass::shelf || !found.windows.empty());
+}
+
 /// How likely the evidence holds that something of this superclass stands at a place: the most over its turns and the cells around.
 double evidence_at(const EvidenceMap& map, Superclass superclass, const Vec2& place) {
   const int column = static_cast<int>(std::floor((place.x() - map.origin.x()) / map.cell)), row = static_cast<int>(std::floor((place.y() - map.origin.y()) / map.cell));
@@ -108,6 +115,7 @@ std::vector<FoundObject> find_objects(const std::vector<Story>& stories, const D
     found.windows.erase(std::unique(found.windows.begin(), found.windows.end()), found.windows.end());
     if (options.evidence) found.confidence *= std::min(1.0, evidence_at(evidence, found.object.superclass(), found.object.center().head<2>()) / 0.5);
   }
+  std::erase_if(gathered.objects, [](const FoundObject& found) { return !convincing(found); });
   return gathered.objects;
 }
 

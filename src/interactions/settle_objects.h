@@ -14,8 +14,9 @@ struct Passing {
   std::vector<int> uses;
 };
 
-/// What it costs that an object stands where it stands, moved by `shift`: the way from where it was found, overlap with others of another
-/// category or heading (thesis Eq. 6.11), and the squared depth of people inside it (Eq. 6.12; tables only against the pelvis).
+/// What it costs that an object stands where it stands, moved by `shift`: the way from where it was found, overlap with others (thesis Eq. 6.11; of
+/// whatever category and heading, for those that agree are one by now), and the squared depth of people inside it (Eq. 6.12; tables only against
+/// the pelvis).
 double standing_cost(const Object& object, const Vec2& shift, std::span<const FoundObject> others, std::span<const Passing> people);
 
 /// Moves objects by at most half a metre to where they stand in nobody's way. What is still inside another at the end, and less sure, goes.

@@ -4,15 +4,12 @@
 
 #include <optional>
 
+#include "interactions/sight.h"
 #include "interactions/synth_furniture.h"
 
 namespace unseen::interactions {
 
-/// Where the camera stands: above the origin, looking along +y.
-struct View {
-  Camera camera;
-  RigidTransform T_world_camera;
-};
+/// Where the camera stands: 0.8 to 1.8 m high.
 View draw_view(int width, int height, Random& random);
 
 /// The floor that people walk on, m: between walls and within the camera's sight.

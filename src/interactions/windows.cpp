@@ -99,6 +99,8 @@ void choose_scenelets(std::vector<Choice>& windows, const std::vector<Reading>& 
   for (std::size_t w = 0; w < windows.size(); ++w) {
     const Reading& reading = readings[windows[w].reading];
     cover(windows[w], reading, database.scenelets[static_cast<std::size_t>(reading.matches[windows[w].match].scenelet)], fps, static_cast<int>(kApart * fps));
+    windows[w].first = std::max(windows[w].first, path.first);
+    windows[w].last = std::min(windows[w].last, path.last());
     if (w == 0 || windows[w - 1].last < windows[w].first) continue;
     const int middle = (readings[windows[w - 1].reading].frame + reading.frame) / 2;
     windows[w - 1].last = std::min(windows[w - 1].last, middle);

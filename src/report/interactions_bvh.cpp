@@ -120,7 +120,9 @@ std::vector<Quaterniond> rotations_of(const Pose& pose, const std::vector<Quater
 }
 
 /// The multiple of a turn added that comes nearest to `last`, rad.
-double near(double angle, double last) { return angle + 2.0 * kPi * std::round((last - angle) / (2.0 * kPi)); }
+double near(double angle, double last) {
+  return angle + 2.0 * kPi * std::round((last - angle) / (2.0 * kPi));
+}
 
 /// Angles about z, x, y, in this order from the left; of the two ways the one nearer to `last`.
 Vec3 angles_of(const Mat3& R, const Vec3& last) {
@@ -159,7 +161,8 @@ void write_node(std::string& out, int index, int depth, const std::array<double,
   out += fmt::format("{}\tCHANNELS {}Zrotation Xrotation Yrotation\n", indent, root ? "6 Xposition Yposition Zposition " : "3 ");
   const std::vector<int> children = children_of(index);
   for (const int child : children) write_node(out, child, depth + 1, lengths);
-  if (children.empty()) out += fmt::format("{}\tEnd Site\n{}\t{{\n{}\t\tOFFSET {}\n{}\t}}\n", indent, indent, indent, triple(100.0 * node.end, 4), indent);
+  if (children.empty())
+    out += fmt::format("{}\tEnd Site\n{}\t{{\n{}\t\tOFFSET {}\n{}\t}}\n", indent, indent, indent, triple(100.0 * node.end, 4), indent);
   out += indent + "}\n";
 }
 
@@ -179,13 +182,16 @@ std::string interactions_bvh(const Person& person, double fps) {
     out += triple(100.0 * pose.col(pelvis), 4);
     for (std::size_t i = 0; i < nodes().size(); ++i) {
       angles[i] = angles_of(last[i].toRotationMatrix(), angles[i]);
-      out += " " + triple(180.0 / kPi * angles[i], 4);
+      out += ' ';
+      out += triple(180.0 / kPi * angles[i], 4);
     }
     out += "\n";
   }
   return out;
 }
 
-std::string bvh_name(std::size_t person) { return person == 0 ? "motion.bvh" : fmt::format("motion-{}.bvh", person); }
+std::string bvh_name(std::size_t person) {
+  return person == 0 ? "motion.bvh" : fmt::format("motion-{}.bvh", person);
+}
 
 }  // namespace unseen::report

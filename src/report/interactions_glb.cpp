@@ -15,7 +15,7 @@ namespace {
 
 using namespace interactions;
 
-constexpr double kLimb = 0.035, kHead = 0.1;  ///< m, radii
+constexpr double kLimb = 0.035, kHead = 0.1;    ///< m, radii
 constexpr std::uint32_t kSides = 12, kCap = 4;  ///< of a capsule, around and from its equator to its pole
 
 /// Along +z from 0 to `length`, with round ends around both.
@@ -26,7 +26,8 @@ TriangleMesh capsule(double radius, double length) {
     const double latitude = 0.5 * kPi * (static_cast<double>(upper ? ring - 1 : ring) / kCap - 1.0);
     for (std::uint32_t s = 0; s < kSides; ++s) {
       const double angle = 2.0 * kPi * s / kSides;
-      mesh.vertices.push_back({radius * std::cos(latitude) * std::cos(angle), radius * std::cos(latitude) * std::sin(angle), radius * std::sin(latitude) + (upper ? length : 0.0)});
+      mesh.vertices.push_back({radius * std::cos(latitude) * std::cos(angle), radius * std::cos(latitude) * std::sin(angle),
+                               radius * std::sin(latitude) + (upper ? length : 0.0)});
     }
   }
   for (std::uint32_t ring = 0; ring <= 2 * kCap; ++ring)
@@ -71,13 +72,15 @@ void add_person(GlbBuilder& b, const Person& person, double fps, const Rgb& colo
   for (int j = 0; j < kJoints; ++j) {
     if (j == head) continue;
     const Motion motion = joint_motion(person, fps, static_cast<Joint>(j));
-    b.add_motion(b.add_empty_node(fmt::format("{} {}", name, kJointNames[static_cast<std::size_t>(j)]), motion.positions.front()), motion.times, motion.positions, {});
+    b.add_motion(b.add_empty_node(fmt::format("{} {}", name, kJointNames[static_cast<std::size_t>(j)]), motion.positions.front()), motion.times,
+                 motion.positions, {});
   }
   add_moving(b, name + " head", capsule(kHead, 0.0), joint_motion(person, fps, head), color);
   const auto lengths = bone_lengths(person);
   for (std::size_t i = 0; i < kBones.size(); ++i) {
     const auto [from, to] = kBones[i];
-    add_moving(b, fmt::format("{} {} to {}", name, kJointNames[from], kJointNames[to]), capsule(kLimb, lengths[i]), bone_motion(person, fps, from, to), color);
+    add_moving(b, fmt::format("{} {} to {}", name, kJointNames[from], kJointNames[to]), capsule(kLimb, lengths[i]),
+               bone_motion(person, fps, from, to), color);
   }
 }
 

@@ -15,7 +15,9 @@ namespace {
 
 using namespace interactions;
 
-double seconds_of(const Reconstruction& r, int frame) { return frame / r.fps; }
+double seconds_of(const Reconstruction& r, int frame) {
+  return frame / r.fps;
+}
 
 /// "2.4–5.1, 7–8.2", in seconds.
 std::string spans_of(const Reconstruction& r, const std::vector<int>& windows) {
@@ -35,7 +37,8 @@ void add_object_table(SceneBuilder& scene, const Reconstruction& r) {
     rows.push_back({found.object.category, number(found.confidence), spans_of(r, found.windows), fmt::format("{:.2f}, {:.2f}", place.x(), place.y()),
                     fmt::format("{:.2f} × {:.2f} × {:.2f}", size.x(), size.y(), size.z()), found.object.id});
   }
-  add_table(scene, "Objects", {column("category"), column("confidence", "", 2), column("windows", "s"), column("place", "m"), column("size", "m"), column("id")},
+  add_table(scene, "Objects",
+            {column("category"), column("confidence", "", 2), column("windows", "s"), column("place", "m"), column("size", "m"), column("id")},
             std::move(rows), "objects");
 }
 
@@ -54,22 +57,26 @@ double path_length(const std::vector<PersonFrame>& frames) {
 void add_people_table(SceneBuilder& scene, const Reconstruction& r) {
   Json rows = Json::array();
   for (const Person& p : r.people) {
-    if (p.frames.empty()) rows.push_back({name_of(p), nullptr, nullptr, 0, nullptr, nullptr});
+    if (p.frames.empty())
+      rows.push_back({name_of(p), nullptr, nullptr, 0, nullptr, nullptr});
     else
       rows.push_back({name_of(p), number(seconds_of(r, p.frames.front().frame)), number(seconds_of(r, p.frames.back().frame)), p.frames.size(),
                       number(100.0 * share_from_scenelets(p.frames)), number(path_length(p.frames))});
   }
-  add_table(scene, "People",
-            {column("name"), column("from", "s", 1), column("to", "s", 1), column("frames"), column("from scenelets", "%", 0), column("path", "m", 1)},
-            std::move(rows), "people");
+  add_table(
+      scene, "People",
+      {column("name"), column("from", "s", 1), column("to", "s", 1), column("frames"), column("from scenelets", "%", 0), column("path", "m", 1)},
+      std::move(rows), "people");
 }
 
 void add_window_table(SceneBuilder& scene, const Reconstruction& r) {
   Json rows = Json::array();
   for (const Window& w : r.windows)
     rows.push_back({number(seconds_of(r, w.first)), number(seconds_of(r, w.last)), w.person, number(w.likelihood), number(w.energy), w.scenelet});
-  add_table(scene, "Windows", {column("from", "s", 1), column("to", "s", 1), column("person"), column("likelihood", "", 2), column("energy", "", 3), column("scenelet")},
-            std::move(rows));
+  add_table(
+      scene, "Windows",
+      {column("from", "s", 1), column("to", "s", 1), column("person"), column("likelihood", "", 2), column("energy", "", 3), column("scenelet")},
+      std::move(rows));
 }
 
 Json facts_of(const Reconstruction& r) {

@@ -66,14 +66,21 @@ Json named(Json json, const char* const (&names)[n]) {
 }
 
 Vec3 on_picture(const Reconstruction& r, const Vec2& pixel) {
-  return r.T_world_camera * Vec3((pixel.x() - r.camera.cx) / r.camera.fx * kPictureDepth, (pixel.y() - r.camera.cy) / r.camera.fy * kPictureDepth, kPictureDepth);
+  return r.T_world_camera *
+         Vec3((pixel.x() - r.camera.cx) / r.camera.fx * kPictureDepth, (pixel.y() - r.camera.cy) / r.camera.fy * kPictureDepth, kPictureDepth);
 }
 
 }  // namespace
 
-std::string name_of(const FoundObject& object) { return fmt::format("{} {}", object.object.category, object.object.id); }
-std::string name_of(const Person& person) { return fmt::format("person {}", person.id); }
-int person_label(std::size_t index) { return kSuperclassCount + static_cast<int>(index); }
+std::string name_of(const FoundObject& object) {
+  return fmt::format("{} {}", object.object.category, object.object.id);
+}
+std::string name_of(const Person& person) {
+  return fmt::format("person {}", person.id);
+}
+int person_label(std::size_t index) {
+  return kSuperclassCount + static_cast<int>(index);
+}
 
 Eigen::AlignedBox3d reach_of(const Reconstruction& r) {
   Eigen::AlignedBox3d box;
@@ -145,7 +152,8 @@ void add_objects(SceneBuilder& scene, const Reconstruction& r) {
   boxes["rotations"] = scene.quaternions(rotations);
   boxes["sizes"] = scene.vectors(sizes);
   boxes["of"] = scene.integers(of);
-  boxes["quantities"] = {named(quantity("superclass", "Used to", "label", scene.integers(superclass)), kSuperclasses), ratio(scene, "confidence", "Confidence", confidence)};
+  boxes["quantities"] = {named(quantity("superclass", "Used to", "label", scene.integers(superclass)), kSuperclasses),
+                         ratio(scene, "confidence", "Confidence", confidence)};
 }
 
 void add_people(SceneBuilder& scene, const Reconstruction& r) {
@@ -217,7 +225,8 @@ void add_detections(SceneBuilder& scene, const Reconstruction& r, const Take& ta
     for (const int frame : frames) {
       const auto at = by_frame.find(frame);
       const Detection* d = at != by_frame.end() && k < at->second.size() ? at->second[k] : nullptr;
-      for (int j = 0; j < kJoints; ++j) joints.push_back(d && d->confidence[j] >= kSeen ? on_picture(r, d->pixels.col(j)) : Vec3(Vec3::Constant(kNone)));
+      for (int j = 0; j < kJoints; ++j)
+        joints.push_back(d && d->confidence[j] >= kSeen ? on_picture(r, d->pixels.col(j)) : Vec3(Vec3::Constant(kNone)));
     }
   Json& seen = scene.add("skeleton", "detections", "Detections, in the camera");
   seen["element"] = "detection";
@@ -225,45 +234,6 @@ void add_detections(SceneBuilder& scene, const Reconstruction& r, const Take& ta
   seen["steps"] = true;
   write_skeleton(scene, seen, frames, r.fps, joints);
   seen["quantities"].push_back(quantity("detection", "Detection", "label", scene.integers(std::vector<int>(most, -1))));
-}
-
-void add_likelihood_chart(SceneBuilder& scene, const Reconstruction& r) {
-  Json series = Json::array(), spans = Json::array();
-  for (std::size_t p = 0; p < r.people.size(); ++p) {
-    const Person& person = r.people[p];
-    std::vector<float> x, y;
-    for (std::size_t i = 0; i < std::min(person.frames.size(), person.likelihood.size()); ++i) {
-      const int frame = person.frames[i].frame;
-      if (i > 0 && frame - person.frames[i - 1].frame > r.fps) {  // away for more than a second
-        x.push_back(x.back());
-        y.push_back(kNone);
-      }
-      x.push_back(static_cast<float>(frame / r.fps));
-      y.push_back(static_cast<float>(person.likelihood[i]));
-    }
-    if (!x.empty()) series.push_back({{"name", name_of(person)}, {"color", person_label(p)}, {"line", true}, {"x", scene.scalars(x)}, {"y", scene.scalars(y)}});
-  }
-  for (std::size_t w = 0; w < r.windows.size(); ++w) {
-    const Window& window = r.windows[w];
-    Json proves = Json::array();
-    std::string name;
-    for (std::size_t i = 0; i < r.objects.size(); ++i)
-      if (std::count(r.objects[i].windows.begin(), r.objects[i].windows.end(), static_cast<int>(w)) > 0) {
-        proves.push_back(i);
-        name += fmt::format("{}{}", name.empty() ? "" : ", ", name_of(r.objects[i]));
-      }
-    const auto person = std::find_if(r.people.begin(), r.people.end(), [&](const Person& p) { return p.id == window.person; });
-    Json span = {{"from", number(window.first / r.fps)}, {"to", number((window.last + 1) / r.fps)},
-                 {"name", name.empty() ? "no object" : name}, {"color", person_label(static_cast<std::size_t>(person - r.people.begin()))}, {"weight", number(window.likelihood)}};
-    if (!proves.empty()) span["elements"] = {{"structure", "objects"}, {"indices", std::move(proves)}};
-    spans.push_back(std::move(span));
-  }
-  if (series.empty()) return;
-  scene.header["charts"].push_back({{"title", "Likelihood of an interaction"},
-                                    {"x", {{"name", "time, s"}, {"unit", "s"}, {"seconds", 1}}},
-                                    {"y", {{"name", "likelihood; bars: windows that a scenelet explains"}, {"unit", ""}, {"high", 1}}},
-                                    {"series", std::move(series)},
-                                    {"spans", std::move(spans)}});
 }
 
 }  // namespace unseen::report

@@ -12,8 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestFrame = std::size_t{4} << 20, kLargestFolder = std::size_t{4} << 30;
-constexpr JointMap kBody25 = {11, 10, 9, 12, 13, 14, 8, 1, -1, 0, 4, 3, 2, 5, 6, 7};
-constexpr JointMap kCoco18 = {10, 9, 8, 11, 12, 13, -1, 1, -1, 0, 4, 3, 2, 5, 6, 7};
 
 /// A tracker's number, −1 if there is none: [5], or 5, or [-1].
 int identity(const JsonField& json) {

@@ -38,6 +38,9 @@ JointFile read_i3db_joints(const std::filesystem::path& folder, int height);
 
 /// The keypoint of a format that is each of our joints; −1: made from neighbours.
 using JointMap = std::array<int, interactions::kJoints>;
+/// Those of OpenPose.
+inline constexpr JointMap kBody25 = {11, 10, 9, 12, 13, 14, 8, 1, -1, 0, 4, 3, 2, 5, 6, 7};
+inline constexpr JointMap kCoco18 = {10, 9, 8, 11, 12, 13, -1, 1, -1, 0, 4, 3, 2, 5, 6, 7};
 
 /// A detection of the keypoints of a format, given as x, y, confidence each. Confidence is clamped to [0,1].
 interactions::Detection detection_of(int frame, std::span<const double> keypoints, const JointMap& map);

@@ -24,3 +24,8 @@ if [ -n "$sanitize" ]; then flags="-fsanitize=$sanitize"; fi
 "$folder/prefix/bin/unseen" synth planes --scene floorplan --points 5000 -o "$folder/plan" --quiet
 "$folder/examples/02_report" "$folder/plan/cloud.ply" "$folder/page.html"
 grep -q '<html' "$folder/page.html"
+
+"$folder/prefix/bin/unseen" synth interactions --seconds 12 --seed 5 -o "$folder/take" --quiet
+"$folder/examples/03_interactions" "$folder/take/take.json" "$folder/scene.glb" | tee "$folder/interactions.txt"
+grep -q 'person 0: 120 frames' "$folder/interactions.txt"
+head -c 4 "$folder/scene.glb" | grep -q glTF

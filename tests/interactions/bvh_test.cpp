@@ -36,7 +36,8 @@ struct Bvh {
       for (const std::string& channel : node.channels) {
         const double value = frames[frame].at(at++);
         const Vec3 axis = channel[0] == 'X' ? Vec3::UnitX() : channel[0] == 'Y' ? Vec3::UnitY() : Vec3::UnitZ();
-        if (channel.substr(1) == "position") T.translate(value * axis);
+        if (channel.substr(1) == "position")
+          T.translate(value * axis);
         else
           T.rotate(Eigen::AngleAxisd(value * kPi / 180.0, axis));
       }
@@ -94,7 +95,9 @@ std::string file_name(int joint) {
 }
 
 /// World metres to the file's centimetres: y up.
-Vec3 in_file(const Vec3& p) { return 100.0 * Vec3(p.x(), p.z(), -p.y()); }
+Vec3 in_file(const Vec3& p) {
+  return 100.0 * Vec3(p.x(), p.z(), -p.y());
+}
 
 double median_length(const Person& person, Joint from, Joint to) {
   std::vector<double> all;
@@ -128,7 +131,8 @@ TEST(InteractionsBvh, ForwardKinematicsGiveThePosesWithConstantLimbs) {
       const auto places = bvh.places(static_cast<std::size_t>(f.frame - person.frames.front().frame));
       const Pose wanted = with_lengths(f.pose, lengths);
       for (int j = 0; j < kJoints; ++j) {
-        ASSERT_LT((places.at(file_name(j)) - in_file(wanted.col(j))).norm(), 0.05) << f.frame << " " << kJointNames[static_cast<std::size_t>(j)];  // cm
+        ASSERT_LT((places.at(file_name(j)) - in_file(wanted.col(j))).norm(), 0.05)
+            << f.frame << " " << kJointNames[static_cast<std::size_t>(j)];  // cm
         ASSERT_LT((places.at(file_name(j)) - in_file(f.pose.col(j))).norm(), 3.0) << f.frame << " " << kJointNames[static_cast<std::size_t>(j)];
       }
     }
@@ -148,7 +152,8 @@ TEST(InteractionsBvh, WhoStandsAsAtRestIsTurnedNowhere) {
   PersonFrame frame;
   const auto put = [&](Joint joint, double left, double up) { frame.pose.col(joint) = Vec3(left, 0, up); };
   put(pelvis, 0, 1), put(thorax, 0, 1.5), put(neck, 0, 1.6), put(head, 0, 1.75);
-  put(left_hip, 0.1, 1), put(left_knee, 0.1, 0.5), put(left_ankle, 0.1, 0.1), put(right_hip, -0.1, 1), put(right_knee, -0.1, 0.5), put(right_ankle, -0.1, 0.1);
+  put(left_hip, 0.1, 1), put(left_knee, 0.1, 0.5), put(left_ankle, 0.1, 0.1), put(right_hip, -0.1, 1), put(right_knee, -0.1, 0.5),
+      put(right_ankle, -0.1, 0.1);
   put(left_shoulder, 0.2, 1.5), put(left_elbow, 0.5, 1.5), put(left_wrist, 0.75, 1.5);
   put(right_shoulder, -0.2, 1.5), put(right_elbow, -0.5, 1.5), put(right_wrist, -0.75, 1.5);
   person.frames = {frame};

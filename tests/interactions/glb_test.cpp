@@ -17,7 +17,9 @@ tinygltf::Model parsed(const std::string& bytes) {
   tinygltf::Model model;
   tinygltf::TinyGLTF reader;
   std::string error, warning;
-  EXPECT_TRUE(reader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<unsigned>(bytes.size()))) << error;
+  EXPECT_TRUE(reader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+                                          static_cast<unsigned>(bytes.size())))
+      << error;
   EXPECT_EQ(warning, "");
   return model;
 }
@@ -30,7 +32,8 @@ int node_named(const tinygltf::Model& model, const std::string& name) {
 }
 
 std::vector<float> floats(const tinygltf::Model& model, int accessor) {
-  const tinygltf::BufferView& view = model.bufferViews.at(static_cast<std::size_t>(model.accessors.at(static_cast<std::size_t>(accessor)).bufferView));
+  const tinygltf::BufferView& view =
+      model.bufferViews.at(static_cast<std::size_t>(model.accessors.at(static_cast<std::size_t>(accessor)).bufferView));
   std::vector<float> values(view.byteLength / sizeof(float));
   std::memcpy(values.data(), model.buffers[0].data.data() + view.byteOffset, view.byteLength);
   return values;
@@ -69,7 +72,8 @@ TEST(InteractionsGlb, BonesReachFromJointToJoint) {
     const std::string name = std::string("person 0 ") + kJointNames[from] + " to " + kJointNames[to];
     const auto turns = keys(model, name, "rotation").second;
     const auto& node = model.nodes[static_cast<std::size_t>(node_named(model, name))];
-    const auto& accessor = model.accessors[static_cast<std::size_t>(model.meshes[static_cast<std::size_t>(node.mesh)].primitives[0].attributes.at("POSITION"))];
+    const auto& accessor =
+        model.accessors[static_cast<std::size_t>(model.meshes[static_cast<std::size_t>(node.mesh)].primitives[0].attributes.at("POSITION"))];
     const double length = accessor.maxValues[2] + accessor.minValues[2];  // the ends are as round below as above
     for (std::size_t f = 0; f < person.frames.size(); ++f) {
       const Eigen::Quaterniond q(turns[4 * f + 3], turns[4 * f], turns[4 * f + 1], turns[4 * f + 2]);
@@ -89,11 +93,13 @@ TEST(InteractionsGlb, ObjectsReachAsFarAsTheirParts) {
   const tinygltf::Model model = parsed(interactions_glb(s.result));
   for (const FoundObject& found : s.result.objects) {
     const auto& node = model.nodes[static_cast<std::size_t>(node_named(model, found.object.category + " " + std::to_string(found.object.id)))];
-    const auto& accessor = model.accessors[static_cast<std::size_t>(model.meshes[static_cast<std::size_t>(node.mesh)].primitives[0].attributes.at("POSITION"))];
+    const auto& accessor =
+        model.accessors[static_cast<std::size_t>(model.meshes[static_cast<std::size_t>(node.mesh)].primitives[0].attributes.at("POSITION"))];
     Eigen::AlignedBox3d box;
     for (const Part& part : found.object.parts)
       for (int corner = 0; corner < 8; ++corner)
-        box.extend(part.box.center + part.box.axes * part.box.half_size.cwiseProduct(Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1)));
+        box.extend(part.box.center +
+                   part.box.axes * part.box.half_size.cwiseProduct(Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1)));
     for (int a = 0; a < 3; ++a) {
       EXPECT_NEAR(accessor.minValues[static_cast<std::size_t>(a)], box.min()[a], 1e-6);
       EXPECT_NEAR(accessor.maxValues[static_cast<std::size_t>(a)], box.max()[a], 1e-6);
@@ -101,7 +107,9 @@ TEST(InteractionsGlb, ObjectsReachAsFarAsTheirParts) {
   }
 }
 
-TEST(InteractionsGlb, OfAnEmptyResultIsAFileToo) { EXPECT_TRUE(parsed(interactions_glb({})).animations.empty()); }
+TEST(InteractionsGlb, OfAnEmptyResultIsAFileToo) {
+  EXPECT_TRUE(parsed(interactions_glb({})).animations.empty());
+}
 
 }  // namespace
 }  // namespace unseen::report

@@ -64,7 +64,8 @@ inline PageSample page_sample(int people = 1, double seconds = 24, int seed = 4)
         person.likelihood.push_back(level);
       }
       if (!busy) continue;
-      if (r.windows.empty() || r.windows.back().person != person.id || r.windows.back().last + 1 < f.frame || f.frame - r.windows.back().first > 2 * r.fps) {
+      if (r.windows.empty() || r.windows.back().person != person.id || r.windows.back().last + 1 < f.frame ||
+          f.frame - r.windows.back().first > 2 * r.fps) {
         r.windows.push_back({person.id, f.frame, f.frame, "recording 3, frame 120", 0.9, 0.02, frame_of(f.pose)});
         const auto nearest = std::min_element(r.objects.begin(), r.objects.end(), [&](const FoundObject& a, const FoundObject& b) {
           const auto away = [&](const FoundObject& o) { return (o.object.center() - f.pose.col(pelvis)).head<2>().norm(); };

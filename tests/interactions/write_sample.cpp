@@ -21,7 +21,9 @@ std::string read(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write(const std::filesystem::path& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+void write(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
 
 void write_folder(const std::filesystem::path& folder, interactions::PageSample s) {
   std::filesystem::create_directories(folder);
@@ -32,7 +34,8 @@ void write_folder(const std::filesystem::path& folder, interactions::PageSample 
   if (!map.pixels.empty()) io::write_color_png(folder / "evidence.png", map.width, map.height, map.pixels);
   write(folder / "result.json", interactions_json(s.result, input, table));
   write(folder / "scene.glb", interactions_glb(s.result));
-  write(folder / "report.html", page_of(interactions_title(input), {interactions_scene(s.result, input, table, "unseen interactions take.json -o out", {s.take}, read(folder / "evidence.png"))}));
+  write(folder / "report.html", page_of(interactions_title(input), {interactions_scene(s.result, input, table, "unseen interactions take.json -o out",
+                                                                                       {s.take}, read(folder / "evidence.png"))}));
   for (std::size_t p = 0; p < s.result.people.size(); ++p) write(folder / bvh_name(p), interactions_bvh(s.result.people[p], s.result.fps));
 }
 

@@ -11,6 +11,9 @@
 #include "unseen/collision/synth.h"
 #include "unseen/cuboids/options.h"
 #include "unseen/cuboids/synth.h"
+#include "unseen/interactions/options.h"
+#include "unseen/interactions/scenelets.h"
+#include "unseen/interactions/synth.h"
 #include "unseen/io/describe.h"
 #include "unseen/planes/options.h"
 #include "unseen/planes/synth.h"
@@ -75,6 +78,21 @@ TEST(Docs, SynthCollisionOptionsAreThoseOfTheProgram) {
 TEST(Docs, SynthCuboidsOptionsAreThoseOfTheProgram) {
   cuboids::SynthOptions options;
   check_table("cuboids.md", "synth cuboids", markdown(cuboids::describe(options)));
+}
+
+TEST(Docs, InteractionsOptionsAreThoseOfTheProgram) {
+  interactions::Options options;
+  check_table("interactions.md", "interactions", markdown(interactions::describe(options)));
+}
+
+TEST(Docs, SceneletOptionsAreThoseOfTheProgram) {
+  interactions::SceneletOptions options;
+  check_table("interactions.md", "scenelets build", markdown(interactions::describe(options)));
+}
+
+TEST(Docs, SynthInteractionsOptionsAreThoseOfTheProgram) {
+  interactions::SynthOptions options;
+  check_table("interactions.md", "synth interactions", markdown(interactions::describe(options)));
 }
 
 }  // namespace

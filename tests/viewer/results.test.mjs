@@ -70,6 +70,31 @@ test('two results side by side', async () => {
   await close();
 });
 
+test('people and objects', async () => {
+  unseen('synth', 'interactions', '-o', 'lounge', '--seconds', '12', '--seed', '4');
+  try {
+    unseen('interactions', 'lounge/take.json', '-o', 'acts');
+  } catch (error) {
+    assert.equal(error.status, 4);  // nothing found: there is a page all the same
+  }
+  const { objects, people, fps } = result('acts');
+  const { page, requests, errors, close } = await open(browser, 'acts', html('acts'));
+  assert.deepEqual([requests, errors], [[], []]);
+  assert.equal(await page.title(), 'Interactions of lounge');
+  assert.equal(await page.locator('.over').count(), objects.length);
+  for (const { id } of objects) {
+    await page.evaluate((i) => window.unseen.select('objects', i), id);
+    assert.deepEqual(await selection(page), { structure: 'objects', index: id });
+  }
+  // The middle of a person is where the result has its joints at that time.
+  const { frame } = people[0].frames[20];
+  const at = await page.evaluate((t) => { window.unseen.select(null); window.unseen.setTime(t); window.unseen.view('top'); return window.unseen.project('people', 0); }, frame / fps);
+  const later = await page.evaluate((t) => { window.unseen.setTime(t); return window.unseen.project('people', 0); }, people[0].frames[60].frame / fps);
+  const moved = people[0].frames[60].joints[6][0] - people[0].frames[20].joints[6][0];
+  if (Math.abs(moved) > 0.3) assert.equal(Math.sign(later.x - at.x), Math.sign(moved));
+  await close();
+});
+
 test('real scans', async (t) => {
   for (const [scan, ...options] of [['rapter/lhouse_bu3.ply', '--scale', '0.0175'], ['rapter/lans_100k.ply', '--scale', '0.02'], ['rapter/overview_sigg2d.ply', '--angles', '60,90']]) {
     const path = join(process.env.UNSEEN_DATA ?? '', 'planes', scan);

@@ -27,7 +27,7 @@ void main() {
   vec3 light = texture(uImage, vPlace).rgb;
   float most = max(light.r, max(light.g, light.b));
   if (most < 0.004 || cut(vWorld)) discard;
-  color = vec4(light / most, 0.9 * most);
+  color = vec4(0.8 * light / most, 0.9 * most);
 }`;
 
 export class FloorLayer extends Layer {

@@ -5,7 +5,7 @@
 #include <opencv2/videoio.hpp>
 #include <string>
 
-namespace unseen::collision {
+namespace unseen::io {
 
 /// A video file, read from its first frame to its last. Decoding is silent.
 class Clip {
@@ -30,4 +30,4 @@ class Clip {
   int announced_ = 0, turn_ = 0;
 };
 
-}  // namespace unseen::collision
+}  // namespace unseen::io

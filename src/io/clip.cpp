@@ -1,41 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/clip.h"
+#include "io/clip.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <mutex>
-#include <opencv2/core/utils/logger.hpp>
 
+#include "io/quiet_opencv.h"
 #include "unseen/core/error.h"
 
-namespace unseen::collision {
+namespace unseen::io {
 namespace {
 
 constexpr const char* kExpected = "a video that FFmpeg can decode";
-
-/// Keeps OpenCV's own log quiet while it lives; FFmpeg's is set once, when OpenCV loads it.
-class Silence {
- public:
-  Silence() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {
-    static std::once_flag once;
-    std::call_once(once, [] { ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0); });
-  }
-  ~Silence() { cv::utils::logging::setLogLevel(level_); }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  cv::utils::logging::LogLevel level_;
-};
 
 }  // namespace
 
 Clip::Clip(std::string path) : path_(std::move(path)) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path_, error)) throw InputError(path_, "video", "no such file", kExpected);
-  const Silence silence;
+  const QuietOpenCv quiet;
   bool open = false;
   try {
     open = capture_.open(path_, cv::CAP_FFMPEG);
@@ -51,7 +34,7 @@ Clip::Clip(std::string path) : path_(std::move(path)) {
 }
 
 bool Clip::next(cv::Mat& frame) {
-  const Silence silence;
+  const QuietOpenCv quiet;
   try {
     if (!capture_.read(frame) || frame.empty()) return false;
   } catch (const cv::Exception&) {
@@ -61,4 +44,4 @@ bool Clip::next(cv::Mat& frame) {
   return true;
 }
 
-}  // namespace unseen::collision
+}  // namespace unseen::io
