@@ -35,7 +35,7 @@ std::vector<Passing> passings(const Reconstruction& r) {
   return all;
 }
 
-Reconstruction solve(const std::vector<Take>& takes, const Database& database, const Options& options, Reconstruction r, Context& context) {
+void solve(const std::vector<Take>& takes, const Database& database, const Options& options, Reconstruction& r, Context& context) {
   const Take take = merge_takes(takes);
   for (const std::string& remark : take.remarks) context.warn(remark);
   {
@@ -66,7 +66,6 @@ Reconstruction solve(const std::vector<Take>& takes, const Database& database, c
   for (const Story& story : stories) r.people.push_back(person_of(story, database, view, take.fps));
   if (options.intersection) settle_objects(r.objects, passings(r));
   for (std::size_t i = 0; i < r.objects.size(); ++i) r.objects[i].object.id = static_cast<int>(i);
-  return r;
 }
 
 }  // namespace
@@ -78,7 +77,7 @@ Reconstruction reconstruct(const std::vector<Take>& takes, const Database& datab
     r.fps = takes.front().fps;
   }
   try {
-    r = solve(takes, database, options, std::move(r), context);
+    solve(takes, database, options, r, context);
     if (r.objects.empty()) r.summary.status = Status::infeasible;
   } catch (const Cancelled&) {
     r.summary.status = Status::cancelled;
