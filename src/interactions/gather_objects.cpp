@@ -42,16 +42,37 @@ double apart(const Vec2& a, const Vec2& b, const Habit& habit, const Vec2& camer
   return depth * depth + side * side;
 }
 
-/// The one around which most mass gathers.
-std::size_t densest(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& open, const Habit& habit, const Vec2& camera) {
-  std::size_t best = open.front();
-  double most = -1;
+/// Votes that are within 2 cm of each other.
+struct Heap {
+  Vec2 place = Vec2::Zero();  ///< mean by mass
+  double mass = 0;
+};
+
+std::vector<Heap> heaps_of(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& open) {
+  constexpr double kCell = 0.02;  // m, far below what tells two objects apart: a long take has many votes but not many places
+  std::map<std::pair<long, long>, Heap> cells;
   for (const std::size_t i : open) {
+    Heap& heap = cells[{std::lround(in_use[i].place.x() / kCell), std::lround(in_use[i].place.y() / kCell)}];
+    heap.place += in_use[i].mass * in_use[i].place;
+    heap.mass += in_use[i].mass;
+  }
+  std::vector<Heap> heaps;
+  for (auto& [cell, heap] : cells)
+    if (heap.mass > 0) heaps.push_back({heap.place / heap.mass, heap.mass});
+  return heaps;
+}
+
+/// The place around which most mass gathers.
+Vec2 densest(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& open, const Habit& habit, const Vec2& camera) {
+  const std::vector<Heap> heaps = heaps_of(in_use, open);
+  Vec2 best = in_use[open.front()].place;
+  double most = -1;
+  for (const Heap& at : heaps) {
     double density = 0;
-    for (const std::size_t j : open) density += in_use[j].mass * std::exp(-0.5 * apart(in_use[i].place, in_use[j].place, habit, camera));
+    for (const Heap& other : heaps) density += other.mass * std::exp(-0.5 * apart(at.place, other.place, habit, camera));
     if (density <= most) continue;
     most = density;
-    best = i;
+    best = at.place;
   }
   return best;
 }
@@ -128,7 +149,7 @@ Gathered gather_objects(const std::vector<UsedObject>& in_use, const View& view)
     for (std::size_t i = 0; i < in_use.size(); ++i)
       if (in_use[i].object.superclass() == static_cast<Superclass>(superclass)) open.push_back(i);
     while (!open.empty()) {
-      const Vec2 center = in_use[densest(in_use, open, habit, camera)].place;
+      const Vec2 center = densest(in_use, open, habit, camera);
       std::vector<std::size_t> members, rest;
       double mass = 0;
       for (const std::size_t i : open) {

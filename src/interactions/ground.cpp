@@ -53,6 +53,18 @@ Detection levelled(Detection d, const Camera& camera, double roll) {
   return d;
 }
 
+/// Are most bodies not nearly upright in the picture?
+bool is_turned(const Take& take, double roll) {
+  int upright = 0, turned = 0;
+  for (const Detection& detection : take.detections) {
+    if (detection.confidence[pelvis] < kSeen || detection.confidence[thorax] < kSeen) continue;
+    const Detection d = levelled(detection, take.camera, roll);
+    const Vec2 torso = d.pixels.col(thorax) - d.pixels.col(pelvis);
+    ++(-torso.y() > std::abs(torso.x()) ? upright : turned);
+  }
+  return turned > upright;
+}
+
 /// Least squares with Cauchy weights of below = height − slope · depth; the slope is drawn to `usual` by `sd`. The slope's prior counts for more
 /// where there are many feet: their depths are wrong together when the person is not of usual size.
 Vec2 fit_floor(const std::vector<Foot>& feet, double usual, double sd) {
@@ -103,6 +115,8 @@ GroundStart find_ground(const Take& take, Context& context) {
   ground.pitch = std::atan(floor.y());
   ground.camera_height = take.camera_height.value_or(floor.x() * std::cos(ground.pitch) + kAnkleHeight);
   start.below = floor.x() - floor.y() * start.depth + kAnkleHeight;
+  if (is_turned(take, ground.roll))
+    context.warn(take.up ? "most people are not upright in the picture: \"up\" may be wrong" : "most people are not upright in the picture: if it is turned, say so by \"up\"");
   if (feet.empty() && !take.camera_height)
     context.warn(fmt::format("nobody is seen upright with feet on the floor: the camera's height is a guess, {:.1f} m", ground.camera_height));
   return start;

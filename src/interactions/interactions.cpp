@@ -50,7 +50,7 @@ void solve(const std::vector<Take>& takes, const Database& database, const Optio
     for (int person = 0; person < take.people; ++person) {
       stories.push_back(read_story(sights_of(take, person, view), person, database, view, take.fps, options, context));
       if (!stories.back().sights.empty() && stories.back().readings.empty())
-        context.warn(fmt::format("person {}: too few joints are seen for any motion", person));
+        context.warn(fmt::format("person {}: too few joints have a confidence of {} or more for any motion", person, kSeen));
       context.progress((person + 1.0) / take.people);
     }
   }

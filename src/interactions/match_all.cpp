@@ -10,7 +10,7 @@ namespace unseen::interactions {
 namespace {
 
 constexpr std::size_t kBlock = 64;      // scenelets at a time: their sums stay in the first cache
-constexpr double kNearest = 0.3;        // m
+constexpr double kNearest = 0.3, kFarthest = 100;  // m: a body on one pixel would be anywhere
 constexpr double kLeastCover = 0.5;     // of the glance's weight that a scenelet must have poses for
 constexpr std::size_t kLeastJoints = 3;  // seen a sight, on average: with fewer any motion fits
 constexpr double kPelvisHeight = 0.8;   // m, between sitting and standing
@@ -137,7 +137,7 @@ std::vector<Match> match_glance(const Glance& glance, const std::vector<const Sa
       PlacementFit fit;
       if (!(sums.weight[i] > 0) || sums.weight[i] < least || !fit_placement(cost_at(sums, i), fit)) continue;
       const double far = fit.position.squaredNorm();  // the cost is in metres where the scenelet is: nearer is no better
-      if (!(far > kNearest * kNearest)) continue;
+      if (!(far > kNearest * kNearest && far < kFarthest * kFarthest)) continue;
       if (!(seen.ahead.dot(Vec3(fit.position.x(), fit.position.y(), kPelvisHeight - camera_height)) > 0)) continue;  // rays end at the camera
       const double error = fit.cost / sums.weight[i] * glance.depth * glance.depth / far;
       matches.push_back({static_cast<int>(first + i), {{fit.position.x(), fit.position.y(), 0}, fit.angle}, error});

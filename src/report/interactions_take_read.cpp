@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 #include "io/rgbd_parts.h"
 #include "report/collision_shot_parts.h"
 #include "report/interactions_take_parts.h"
@@ -15,13 +17,19 @@ namespace {
 namespace fs = std::filesystem;
 using namespace interactions;
 
-constexpr std::size_t kLargestTake = std::size_t{8} << 20, kMostPeople = 20, kMostLabels = 10'000, kMostMasks = 100, kMostFrame = 10'000'000;
+constexpr std::size_t kLargestTake = std::size_t{8} << 20, kMostPeople = 16, kMostLabels = 10'000, kMostMasks = 100, kMostFrame = 10'000'000;
 
 GivenCamera given_camera(const JsonField& json) {
   const collision::ShotCamera c = read_shot_camera(json);
   for (const double k : c.distortion)
     if (k != 0.0) json["camera"]["distortion"].fail("zeros: joints of a picture without distortion");
   return {c.camera, c.hfov, c.assumed};
+}
+
+int read_people(const JsonField& json) {
+  const double people = json.number(1, kMostPeople);
+  if (people != std::floor(people)) json.fail("a whole number");
+  return static_cast<int>(people);
 }
 
 std::vector<Label> read_labels(const JsonField& json, int people) {
@@ -82,8 +90,7 @@ Take read_take(const fs::path& path) {
   take.name = path.string();
   if (json.has("fps")) take.fps = json["fps"].number(0.1, 1e4);
   else take.remarks.push_back(fmt::format("no fps: {} assumed", take.fps));
-  if (json.has("people")) take.people = json["people"].index(kMostPeople + 1);
-  if (take.people < 1) json["people"].fail("at least 1");
+  if (json.has("people")) take.people = read_people(json["people"]);
   (void)json["joints"];
   const fs::path place = io::named_file(json, "joints", folder);
   JointFile joints = read_joints(take, json, place);

@@ -72,7 +72,7 @@ void join_identical(Take& take, const std::string& source) {
     if (kept.size() - first > kMostInFrame) throw InputError(source, fmt::format("frame {}", d.frame), "more people", fmt::format("at most {}", kMostInFrame));
   }
   take.detections = std::move(kept);
-  if (joined > 0) take.remarks.push_back(fmt::format("{} that are nearly the same as another of their frame: joined", io::count_of(joined, "detection")));
+  if (joined > 0) take.remarks.push_back(fmt::format("{} nearly the same as another of the frame: joined", io::count_of(joined, "detection")));
 }
 
 }  // namespace

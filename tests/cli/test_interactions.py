@@ -150,7 +150,7 @@ class Interactions(CliTest):
                               ({"format": "json"}, ("format", '"json"', "openpose, coco, mediapipe or i3db")),
                               ({"joints": "nowhere"}, ("joints", "nowhere")),
                               ({"fps": 0}, ("fps", "found 0")),
-                              ({"people": 0}, ("people", "at least 1")),
+                              ({"people": 0}, ("people", "[1, 16]")),
                               ({"peoples": 2}, ("peoples", "unknown field")),
                               ({"camera": {"fx": 1000}}, ("camera", "fy is missing")),
                               ({"camera": {"hfov_deg": 300}}, ("camera.hfov_deg", "300")),
