@@ -29,7 +29,8 @@ void score_poses(const std::vector<Person>& found, const Recording& truth, const
 /// Fills `action_accuracy` and `confusion`.
 void score_actions(const std::vector<Person>& found, const Recording& truth, const std::vector<int>& match, Evaluation& e);
 
-/// Share of the true people's frames in which the best one-to-one assignment of that frame alone is `match`.
+/// Of the frames in which a true person is seen (four joints at least), the share in which the best one-to-one assignment of that frame alone,
+/// in the picture, is `match`: a depth that is off does not make anybody another one.
 double identity_share(const std::vector<Person>& found, const Recording& truth, const std::vector<int>& match);
 
 /// Fills `inside_objects` to `overlapping`. `result` is as it was, on its own floor.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -23,6 +24,14 @@ std::size_t told_apart(Action action) {
 }
 
 constexpr double kAnyDistance = 1e9;  // m, wider than any scene
+constexpr auto kSeenJoints = 4;       // of somebody who is seen at all
+
+bool is_seen(const RecordedFrame& truth) { return kJoints - std::count(truth.occluded.begin(), truth.occluded.end(), true) >= kSeenJoints; }
+
+/// How far two poses are from each other as a camera sees them: the mean over joints of the distance of unit rays.
+double seen_apart(const Pose& a, const Pose& b, const Vec3& camera) {
+  return ((a.colwise() - camera).colwise().normalized() - (b.colwise() - camera).colwise().normalized()).colwise().norm().mean();
+}
 
 }  // namespace
 
@@ -60,14 +69,15 @@ void score_actions(const std::vector<Person>& found, const Recording& truth, con
 double identity_share(const std::vector<Person>& found, const Recording& truth, const std::vector<int>& match) {
   std::map<int, std::vector<std::pair<std::size_t, const RecordedFrame*>>> by_frame;
   for (std::size_t p = 0; p < truth.people.size(); ++p)
-    for (const RecordedFrame& f : truth.people[p]) by_frame[f.frame].emplace_back(p, &f);
+    for (const RecordedFrame& f : truth.people[p])
+      if (is_seen(f)) by_frame[f.frame].emplace_back(p, &f);
   int right = 0, frames = 0;
   for (const auto& [frame, people] : by_frame) {
     Eigen::MatrixXd distance(people.size(), found.size());
     for (std::size_t t = 0; t < people.size(); ++t)
       for (std::size_t p = 0; p < found.size(); ++p) {
         const PersonFrame* at = frame_at(found[p], frame);
-        distance(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(p)) = at ? pelvis_distance(*at, *people[t].second) : INFINITY;
+        distance(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(p)) = at ? seen_apart(at->pose, people[t].second->pose, truth.T_world_camera.translation) : INFINITY;
       }
     const std::vector<int> best = assign(distance, kAnyDistance);
     for (std::size_t t = 0; t < people.size(); ++t) ++frames, right += best[t] >= 0 && best[t] == match[people[t].first];

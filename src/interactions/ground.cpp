@@ -15,13 +15,17 @@ namespace {
 
 constexpr double kAnkleHeight = 0.13;         // m, of the joint that detectors mark
 constexpr double kTorso = 0.44, kLeg = 0.77;  // m, shoulders to hips and hip to ankle of an adult of 1.7 m
-constexpr double kUsualHeight = 1.2, kHeightSd = 0.5;        // m, of cameras that film people
-constexpr double kUsualPitch = 0.05, kPitchSd = 0.06;        // rad
-constexpr double kFloorSd = 0.05;                            // m, of an ankle about the floor
+constexpr double kUsualHeight = 1.3, kHeightSd = 0.4;         // m, of cameras that film people
+constexpr double kUsualPitch = 0.06, kPitchSd = 0.06;         // rad
+constexpr double kKnownSd = 1e-3;                             // of what the take gives
+constexpr double kPoseSd = 0.05, kStatureSd = 0.06;           // of a length in the picture, as a share: who leans, and who is tall
+constexpr double kRough = 1.5;                                // sd beyond which a foot counts less and less
+constexpr double kCorrelated = 0.5;                           // s that one stance lasts
 
-/// The lower ankle of someone upright: its depth along the camera's axis and how far below the axis it is, m.
+/// The lower ankle of someone upright: how far below the camera's axis it is seen (a tangent), and the inverse of its depth by the length of the body, 1/m.
 struct Foot {
-  double depth, below;
+  double below, inverse_depth;
+  int person;
 };
 
 /// The lower leg in the picture if it stands upright: its length and the row of its ankle, px.
@@ -42,8 +46,7 @@ std::optional<Foot> lower_foot(const Detection& d, const Camera& camera) {
   std::optional<Vec2> leg = upright_leg(d, right_hip, right_knee, right_ankle, torso);
   if (const auto other = upright_leg(d, left_hip, left_knee, left_ankle, torso); other && (!leg || other->y() > leg->y())) leg = other;
   if (!leg) return std::nullopt;
-  const double depth = camera.fy * (kTorso + kLeg) / (torso + leg->x());
-  return Foot{depth, (leg->y() - camera.cy) / camera.fy * depth};
+  return Foot{(leg->y() - camera.cy) / camera.fy, (torso + leg->x()) / camera.fy / (kTorso + kLeg), d.person};
 }
 
 /// The detection as a camera that is not rolled has it: turned about the principal point.
@@ -65,34 +68,57 @@ bool is_turned(const Take& take, double roll) {
   return turned > upright;
 }
 
-/// Least squares with Cauchy weights of below = height − slope · depth; the slope is drawn to `usual` by `sd`. The slope's prior counts for more
-/// where there are many feet: their depths are wrong together when the person is not of usual size.
-Vec2 fit_floor(const std::vector<Foot>& feet, double usual, double sd) {
-  const double slope_weight = std::max(1.0, static_cast<double>(feet.size()) / 9.0) / (sd * sd);
-  Vec2 fit(kUsualHeight, usual);
-  std::vector<double> weights(feet.size(), 1.0);
+/// What cameras are like before anybody is seen: means and standard deviations.
+struct Usual {
+  double height = kUsualHeight, height_sd = kHeightSd;  ///< m, above ankles
+  double slope = kUsualPitch, slope_sd = kPitchSd;      ///< tangent of the pitch
+};
+
+struct Floor {
+  double height = 0, slope = 0;
+  Eigen::Matrix2d information;  ///< of both
+};
+
+/// An ankle that is seen at the tangent t on a floor h below has the inverse depth (t + slope) / h: a line over t, which is exact beside the
+/// lengths that inverse depths are read from. Least squares with Cauchy weights for (1/h, slope/h) and each person's stature.
+Floor fit_floor(const std::vector<Foot>& feet, int people, const Usual& usual, double fps) {
+  const Eigen::Index size = 2 + people;
+  const double inverse = 1 / usual.height, inverse_sd = usual.height_sd * inverse * inverse, stance = std::max(1.0, kCorrelated * fps);
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(size, size);
+  const Vec2 slope_row = Vec2(-usual.slope, 1) / (usual.slope_sd * inverse);
+  prior.topLeftCorner<2, 2>() = slope_row * slope_row.transpose();
+  prior(0, 0) += 1 / (inverse_sd * inverse_sd);
+  prior.diagonal().tail(people).setConstant(1 / (kStatureSd * kStatureSd));
+  Eigen::VectorXd prior_right = Eigen::VectorXd::Zero(size), solution, weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(feet.size()));
+  prior_right[0] = inverse / (inverse_sd * inverse_sd);
+  Eigen::MatrixXd normal;
   for (int round = 0; round < 30; ++round) {
-    Eigen::Matrix2d normal = Eigen::Vector2d(1.0 / (kHeightSd * kHeightSd), slope_weight).asDiagonal();
-    Vec2 right(kUsualHeight / (kHeightSd * kHeightSd), slope_weight * usual);
+    normal = prior;
+    Eigen::VectorXd right = prior_right;
+    const auto row_of = [&](const Foot& foot) {
+      Eigen::VectorXd row = Eigen::VectorXd::Zero(size);
+      row.head<2>() = Vec2(foot.below, 1) / foot.inverse_depth;
+      row[2 + foot.person] = 1;  // who is taller than usual seems nearer
+      return Eigen::VectorXd(row / kPoseSd);
+    };
     for (std::size_t i = 0; i < feet.size(); ++i) {
-      const Vec2 row(1.0, -feet[i].depth);
-      const double weight = weights[i] / (kFloorSd * kFloorSd);
+      const Eigen::VectorXd row = row_of(feet[i]);
+      const double weight = weights[static_cast<Eigen::Index>(i)] / stance;
       normal += weight * row * row.transpose();
-      right += weight * feet[i].below * row;
+      right += weight / kPoseSd * row;
     }
-    fit = normal.ldlt().solve(right);
+    solution = normal.ldlt().solve(right);
     for (std::size_t i = 0; i < feet.size(); ++i) {
-      const double off = (feet[i].below - fit.x() + fit.y() * feet[i].depth) / kFloorSd;
-      weights[i] = 1.0 / (1.0 + off * off);
+      const double off = (row_of(feet[i]).dot(solution) - 1 / kPoseSd) / kRough;
+      weights[static_cast<Eigen::Index>(i)] = 1 / (1 + off * off);
     }
   }
-  return fit;
-}
-
-double median_depth(std::vector<Foot> feet) {
-  const auto middle = feet.begin() + static_cast<std::ptrdiff_t>(feet.size() / 2);
-  std::nth_element(feet.begin(), middle, feet.end(), [](const Foot& a, const Foot& b) { return a.depth < b.depth; });
-  return middle->depth;
+  Floor floor{1 / solution[0], solution[1] / solution[0], {}};
+  Eigen::Matrix2d jacobian;
+  jacobian << -floor.height * floor.height, 0, -floor.slope * floor.height, floor.height;
+  const Eigen::Matrix2d covariance = jacobian * normal.inverse().topLeftCorner<2, 2>() * jacobian.transpose();
+  floor.information = covariance.inverse();
+  return floor;
 }
 
 }  // namespace
@@ -106,15 +132,21 @@ GroundStart find_ground(const Take& take, Context& context) {
   }
   std::vector<Foot> feet;
   for (const Detection& detection : take.detections)
-    if (const auto foot = lower_foot(levelled(detection, take.camera, ground.roll), take.camera)) feet.push_back(*foot);
-  start.feet = static_cast<int>(feet.size());
-  if (!feet.empty()) start.depth = median_depth(feet);
-  constexpr double kKnown = 1e-3;
-  const Vec2 floor = take.up ? fit_floor(feet, std::tan(ground.pitch), kKnown) : fit_floor(feet, kUsualPitch, kPitchSd);
+    if (const auto foot = detection.person >= 0 ? lower_foot(levelled(detection, take.camera, ground.roll), take.camera) : std::nullopt) feet.push_back(*foot);
+  Usual usual;
+  if (take.up) {
+    usual.slope = std::tan(ground.pitch);
+    usual.slope_sd = kKnownSd;
+  }
+  if (take.camera_height) {
+    usual.height = std::max(0.1, (*take.camera_height - kAnkleHeight) / std::cos(ground.pitch));
+    usual.height_sd = kKnownSd;
+  }
+  const Floor floor = fit_floor(feet, take.people, usual, take.fps);
   ground.source = take.camera_height ? "given" : feet.empty() ? "assumed" : "feet";
-  ground.pitch = std::atan(floor.y());
-  ground.camera_height = take.camera_height.value_or(floor.x() * std::cos(ground.pitch) + kAnkleHeight);
-  start.below = floor.x() - floor.y() * start.depth + kAnkleHeight;
+  ground.pitch = std::atan(floor.slope);
+  ground.camera_height = take.camera_height.value_or(floor.height * std::cos(ground.pitch) + kAnkleHeight);
+  start.information = floor.information;
   if (is_turned(take, ground.roll))
     context.warn(take.up ? "most people are not upright in the picture: \"up\" may be wrong" : "most people are not upright in the picture: if it is turned, say so by \"up\"");
   if (feet.empty() && !take.camera_height)

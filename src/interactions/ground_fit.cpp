@@ -25,7 +25,7 @@ class Misfit {
   Misfit(const Take& take, const Database& database, const GroundStart& feet, const Context& context)
       : take_(take), database_(thinned(database)), feet_(feet), context_(context) {}
 
-  /// Mean error of the best matches, m², and weak pulls to the floor as feet have it and to cameras as people set them up.
+  /// Mean error of the best matches, m², and what feet say.
   double operator()(const Ground& ground) const {
     constexpr double kHalf = 1.0, kStep = 0.3;  // s
     constexpr std::size_t kTried = 6;
@@ -49,15 +49,12 @@ class Misfit {
     });
     double sum = 0;
     for (const double error : errors) sum += error;
-    const double high = (ground.camera_height - 1.3) / 0.4, steep = (ground.pitch - 0.06) / 0.06;
-    const double below = ground.camera_height / std::cos(ground.pitch) - std::tan(ground.pitch) * feet_.depth;
-    const double floor = (below - feet_.below) / kFloorSd * std::min(1.0, feet_.feet / 10.0);
-    return sum / std::max<double>(1, static_cast<double>(errors.size())) + kPull * (high * high + steep * steep + 2 * floor * floor);
+    const Vec2 off(ground.camera_height - feet_.ground.camera_height, std::tan(ground.pitch) - std::tan(feet_.ground.pitch));
+    return sum / std::max<double>(1, static_cast<double>(errors.size())) + kFeet * off.dot(feet_.information * off);
   }
 
  private:
-  static constexpr double kWorst = 0.08, kPull = 1e-4;  // m²
-  static constexpr double kFloorSd = 0.08;              // m
+  static constexpr double kWorst = 0.08, kFeet = 1e-4;  // m²: of a match that there is none of; of a squared deviation of what feet say
   const Take& take_;
   Database database_;
   const GroundStart& feet_;

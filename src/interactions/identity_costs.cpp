@@ -110,6 +110,11 @@ Sightings sightings_of(const Take& take) {
 
 double presence_cost(const Detection& detection) { return -detection.confidence.mean(); }
 
+double leave_cost(const Detection& detection) {
+  const double seen = detection.confidence.mean();
+  return kLeave * seen * seen;
+}
+
 double link_cost(const Take& take, const Sightings& s, int from, int to) {
   const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
   const double frames = double(take.detections[b].frame) - take.detections[a].frame;
@@ -117,19 +122,22 @@ double link_cost(const Take& take, const Sightings& s, int from, int to) {
   for (const std::optional<Vec2>& v : {s.before[a], s.after[b]})
     if (v) squared = std::min(squared, motion(take.detections[a], take.detections[b], frames * *v).squared);
   if (!s.before[a] && !s.after[b]) squared = motion(take.detections[a], take.detections[b], Vec2::Zero()).squared;
-  return kMotion * squared / (kJoints * s.half_diagonal * s.half_diagonal * frames) + kAbsent * (s.slot[b] - s.slot[a] - 1);
+  const int missed = s.slot[b] - s.slot[a] - 1;
+  return kMotion * squared / (kJoints * s.half_diagonal * s.half_diagonal * frames) + kAbsent * missed +
+         (missed > 0 ? leave_cost(take.detections[a]) + leave_cost(take.detections[b]) : 0.0);
 }
 
 double path_cost(const Take& take, const Sightings& s, const std::vector<int>& path) {
   const int slots = static_cast<int>(s.frames.size());
   if (path.empty()) return kAbsent * slots;
+  const auto at = [&](std::size_t i) -> const Detection& { return take.detections[static_cast<std::size_t>(path[i])]; };
   const int first = s.slot[static_cast<std::size_t>(path.front())], missed = slots - 1 - s.slot[static_cast<std::size_t>(path.back())];
-  double cost = kAbsent * (first + missed) + (first > 0 ? kLeave : 0) + (missed > 0 ? kLeave : 0);
+  double cost = kAbsent * (first + missed) + (first > 0 ? leave_cost(at(0)) : 0) + (missed > 0 ? leave_cost(at(path.size() - 1)) : 0);
   for (std::size_t i = 0; i < path.size(); ++i) {
-    cost += presence_cost(take.detections[static_cast<std::size_t>(path[i])]);
+    cost += presence_cost(at(i));
     if (i == 0) continue;
     const int slots_between = s.slot[static_cast<std::size_t>(path[i])] - s.slot[static_cast<std::size_t>(path[i - 1])];
-    cost += slots_between <= s.memory ? link_cost(take, s, path[i - 1], path[i]) : 2 * kLeave + kAbsent * (slots_between - 1);
+    cost += slots_between <= s.memory ? link_cost(take, s, path[i - 1], path[i]) : leave_cost(at(i - 1)) + leave_cost(at(i)) + kAbsent * (slots_between - 1);
   }
   return cost;
 }

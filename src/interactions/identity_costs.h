@@ -22,14 +22,18 @@ struct Sightings {
 Sightings sightings_of(const Take& take);
 
 constexpr double kAbsent = 1.0;   ///< of a person in a frame without a detection (Eq. 6.14)
-constexpr double kLeave = 10.0;   ///< of leaving for long, and of coming back
+constexpr double kLeave = 20.0;   ///< of leaving when seen well, and of coming back so
 constexpr double kMotion = 1e3;   ///< weight of motion (Eq. 6.16)
 
 /// Of a person at a detection: minus the mean confidence of its joints (Eq. 6.14).
 double presence_cost(const Detection& detection);
 
+/// Of leaving after a detection, or coming back at it: squared mean confidence × kLeave, for people fade before they are hidden. Without it two
+/// people would take turns at the detections of one while the other is hidden.
+double leave_cost(const Detection& detection);
+
 /// Of a person at two detections of different frames and none between: the mean over joints of confidence-weighted squared motion in half
-/// diagonals of the image (Eq. 6.15), over the number of frames between, plus the frames missed. Motion is what the velocity before the one
+/// diagonals of the image (Eq. 6.15), over the number of frames between, plus the frames missed, leaving and coming back. Motion is what the velocity before the one
 /// does not explain, or the velocity after the other, whichever explains more: people who cross would otherwise seem to turn back.
 double link_cost(const Take& take, const Sightings& sightings, int from, int to);
 

@@ -45,6 +45,7 @@ class Network {
   std::size_t in(int i) const { return in_[static_cast<std::size_t>(i)]; }
   std::size_t out(int i) const { return in(i) + 1; }
   std::size_t away(int slot) const { return away_[static_cast<std::size_t>(slot)]; }
+  const Detection& detection(int i) const { return model_.take.detections[static_cast<std::size_t>(i)]; }
   int slot_of(int i) const { return model_.sightings.slot[static_cast<std::size_t>(i)]; }
   People who(int i) const { return allowed_.detection[static_cast<std::size_t>(i)]; }
   bool can_link(int from, int to) const { return (who(from) & who(to) & ~busy(allowed_, slot_of(from), slot_of(to))) != 0; }
@@ -56,10 +57,11 @@ class Network {
 
   void add_detection(MinCostFlow& flow, int i, int slot) const {
     const int slots = static_cast<int>(away_.size()), memory = model_.sightings.memory;
+    const double leaving = leave_cost(detection(i));
     const double bonus = is_known(model_, allowed_, i) ? kMust : 0.0;
-    flow.add(in(i), out(i), 1, presence_cost(model_.take.detections[static_cast<std::size_t>(i)]) - bonus);
+    flow.add(in(i), out(i), 1, presence_cost(detection(i)) - bonus);
     if (slot == 0) flow.add(0, in(i), 1, 0.0);
-    if (slot > 0 && !is_expected(i, -1)) flow.add(away(slot - 1), in(i), 1, kLeave);
+    if (slot > 0 && !is_expected(i, -1)) flow.add(away(slot - 1), in(i), 1, leaving);
     if (slot + 1 == slots) flow.add(out(i), sink_, 1, 0.0);
     for (const Link& link : model_.links[static_cast<std::size_t>(i)])
       if (can_link(i, link.to)) flow.add(out(i), in(link.to), 1, link.cost);
@@ -67,14 +69,14 @@ class Network {
       for (int next = slot + memory + 1; next < slots && (who(i) & busy(allowed_, slot, next)) == 0; ++next)
         for (const int to : model_.sightings.at[static_cast<std::size_t>(next)]) add_long_link(flow, i, to);
     } else {
-      if (slot + 1 < slots) flow.add(out(i), sink_, 1, kLeave + kAbsent * (slots - 1 - slot));
-      if (slot + memory < slots) flow.add(out(i), away(slot + memory), 1, kLeave + kAbsent * memory);
+      if (slot + 1 < slots) flow.add(out(i), sink_, 1, leaving + kAbsent * (slots - 1 - slot));
+      if (slot + memory < slots) flow.add(out(i), away(slot + memory), 1, leaving + kAbsent * memory);
       for (const int to : returning_)
         if (slot_of(to) > slot + memory) add_long_link(flow, i, to);
     }
   }
   void add_long_link(MinCostFlow& flow, int from, int to) const {
-    if (can_link(from, to)) flow.add(out(from), in(to), 1, 2 * kLeave + kAbsent * (slot_of(to) - slot_of(from) - 1));
+    if (can_link(from, to)) flow.add(out(from), in(to), 1, leave_cost(detection(from)) + leave_cost(detection(to)) + kAbsent * (slot_of(to) - slot_of(from) - 1));
   }
 
   Paths detections_of(const std::vector<std::vector<std::size_t>>& paths) const {

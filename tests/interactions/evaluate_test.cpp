@@ -209,8 +209,15 @@ TEST(Evaluate, PeopleAreMatchedByTheirPaths) {
   EXPECT_EQ(*whole.identity, 1.0);
   for (std::size_t f = 0; f < 8; ++f) std::swap(r.people[0].frames[f], r.people[1].frames[f]);
   EXPECT_NEAR(*evaluate(r, t).identity, 23.0 / 31, 1e-12);
-  r.people.pop_back();
-  EXPECT_NEAR(*evaluate(r, t).identity, 0.5 * 23.0 / 31, 1e-12) << "who is not there is not right";
+  Reconstruction alone = r;
+  alone.people.pop_back();
+  EXPECT_NEAR(*evaluate(alone, t).identity, 0.5 * 23.0 / 31, 1e-12) << "who is not there is not right";
+  for (RecordedFrame& f : t.people[0])
+    if (f.frame < 8) f.occluded.fill(true);
+  EXPECT_NEAR(*evaluate(r, t).identity, 46.0 / (62 - 8), 1e-12) << "who is not seen cannot be told apart";
+  for (Person& person : r.people)
+    for (PersonFrame& f : person.frames) f.pose = ((f.pose.colwise() - t.T_world_camera.translation) * 3).colwise() + t.T_world_camera.translation;
+  EXPECT_NEAR(*evaluate(r, t).identity, 46.0 / (62 - 8), 1e-12) << "how far away is another question";
 }
 
 TEST(Evaluate, ConsistencyIsMeasuredOnTheResult) {

@@ -159,6 +159,18 @@ TEST(Identities, SomebodyMissedForAFrameComesBack) {
   EXPECT_EQ(std::count(person.begin(), person.end(), -1), 0);
 }
 
+TEST(Identities, WhoIsHiddenDoesNotTakeTurnsWithWhoHides) {
+  Random random(37);
+  Take take = empty_take(2);
+  for (int frame = 0; frame < 90; ++frame) {
+    take.detections.push_back(body(frame, Vec2(800, 540), 10, random));
+    const double at = 250 + 12 * frame;  // walks by behind the other, who stands
+    if (frame < 35 || frame >= 60) take.detections.push_back(body(frame, Vec2(at, 540), 10, random, frame < 33 || frame >= 62 ? 0.9 : 0.4));
+  }
+  const std::vector<int> person = identify(take);
+  for (std::size_t i = 0; i < person.size(); ++i) EXPECT_EQ(person[i] == person[0], std::abs(take.detections[i].pixels.row(0).mean() - 800) < 50) << i;
+}
+
 TEST(Identities, ADoubtfulThirdFigureIsNobody) {
   Random random(35);
   Take take = empty_take(2);

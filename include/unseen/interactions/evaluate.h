@@ -36,7 +36,7 @@ struct Evaluation {
   double true_inside_objects = 0;  ///< the same of the truth in its own boxes
   double foot_skating = 0;         ///< m/s, mean ground speed of ankles below 0.15 m
   double overlapping = 0;          ///< m², of footprints of different objects
-  std::optional<double> identity;  ///< share of frames in which a true person has the right result's person
+  std::optional<double> identity;  ///< share of the frames with a true person in sight in which he is the right one of the result
 };
 
 /// Result against truth, by the rules of docs/interactions.md (gate 1.5 m, one-to-one, superclass must agree).
