@@ -14,7 +14,7 @@ struct Habit {
   double least_time;   // s
   double least_share;  // of a reading's matches
 };
-constexpr std::array<Habit, 3> kHabits = {{{0.16, 0.07, 0.5, 0.5}, {0.30, 0.10, 1.0, 0.5}, {0.30, 0.10, 1.5, 0.4}}};
+constexpr std::array<Habit, 3> kHabits = {{{0.16, 0.07, 0.5, 0.5}, {0.30, 0.10, 1.0, 0.4}, {0.30, 0.10, 1.5, 0.4}}};
 constexpr double kReadingTime = 0.2;  // s that a reading stands for
 constexpr double kGate = 2.5;  // sd
 
@@ -27,7 +27,7 @@ double reach_of(const Object& object) {
 
 /// Are two finds of one superclass one thing? Those within 0.8 m are, and two ends of a couch or bed; but two chairs can stand side by side.
 bool same_thing(const Object& a, const Object& b, const Vec2& camera) {
-  constexpr double kNear = 0.8, kBeside = 0.35, kSmallSeat = 0.35;  // m; the last of half a seat
+  constexpr double kNear = 0.8, kBeside = 0.45, kSmallSeat = 0.35;  // m; the last of half a seat
   const Vec2 off = (a.center() - b.center()).head<2>();
   const Vec2 along = (0.5 * (a.center() + b.center()).head<2>() - camera).normalized();
   const double side = std::abs(off.x() * along.y() - off.y() * along.x()), larger = std::max(reach_of(a), reach_of(b));
@@ -118,6 +118,41 @@ Object describe(const std::vector<UsedObject>& in_use, const std::vector<std::si
   return Placement{shift, 0} * typical->object;
 }
 
+/// How much their votes say that the object is there: those for a seat had better be of people who seem to interact, for who bends looks like one who sits.
+double confidence_of(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& members, Superclass superclass, double share, double mass) {
+  constexpr double kSurelySits = 0.5;  // likelihood of an interaction
+  const double confidence = share * (1 - std::exp(-mass / kHabits[static_cast<std::size_t>(superclass)].least_time));
+  if (superclass != Superclass::sit) return confidence;
+  double likelihood = 0;
+  for (const std::size_t i : members) likelihood += in_use[i].mass * in_use[i].likelihood;
+  return confidence * std::min(1.0, likelihood / mass / kSurelySits);
+}
+
+double mass_of(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& members) {
+  double mass = 0;
+  for (const std::size_t i : members) mass += in_use[i].mass;
+  return mass;
+}
+
+/// Tables and shelves are both what hands are on: of two at one place the one with more votes stays, as sure as the surer one.
+void tell_tables_from_shelves(Gathered& gathered, const std::vector<UsedObject>& in_use) {
+  constexpr double kOnePiece = 0.6;  // m
+  for (std::size_t i = 0; i < gathered.objects.size(); ++i)
+    for (std::size_t j = gathered.objects.size(); j-- > i + 1;) {
+      FoundObject &table = gathered.objects[i], &shelf = gathered.objects[j];
+      if (table.object.superclass() != Superclass::table || shelf.object.superclass() != Superclass::shelf) continue;
+      if ((table.object.center() - shelf.object.center()).head<2>().norm() >= kOnePiece) continue;
+      const double confidence = std::max(table.confidence, shelf.confidence);
+      if (mass_of(in_use, gathered.members[i]) < mass_of(in_use, gathered.members[j])) {
+        std::swap(table, shelf);
+        std::swap(gathered.members[i], gathered.members[j]);
+      }
+      gathered.objects[i].confidence = confidence;
+      gathered.objects.erase(gathered.objects.begin() + static_cast<std::ptrdiff_t>(j));
+      gathered.members.erase(gathered.members.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+}
+
 }  // namespace
 
 std::vector<UsedObject> used_objects_in(int story, const std::vector<Reading>& readings, const Path& path, const Database& database,
@@ -132,7 +167,7 @@ std::vector<UsedObject> used_objects_in(int story, const std::vector<Reading>& r
       for (std::size_t o = 0; o < scenelet.objects.size(); ++o) {
         const Object& object = scenelet.objects[o];
         if (!used[static_cast<std::size_t>(match.scenelet)][o] || object.superclass() == Superclass::other) continue;
-        UsedObject one{story, r, match.scenelet, placement * object, Vec2::Zero(), readings[r].weights[i] * kReadingTime, readings[r].weights[i]};
+        UsedObject one{story, r, match.scenelet, placement * object, Vec2::Zero(), readings[r].weights[i] * kReadingTime, readings[r].weights[i], readings[r].likelihood};
         one.place = object.superclass() == Superclass::sit ? Vec2(placement.position.head<2>()) : Vec2(one.object.center().head<2>());
         in_use.push_back(std::move(one));
       }
@@ -151,13 +186,9 @@ Gathered gather_objects(const std::vector<UsedObject>& in_use, const View& view)
     while (!open.empty()) {
       const Vec2 center = densest(in_use, open, habit, camera);
       std::vector<std::size_t> members, rest;
-      double mass = 0;
-      for (const std::size_t i : open) {
-        const bool near = apart(in_use[i].place, center, habit, camera) < kGate * kGate;
-        (near ? members : rest).push_back(i);
-        if (near) mass += in_use[i].mass;
-      }
+      for (const std::size_t i : open) (apart(in_use[i].place, center, habit, camera) < kGate * kGate ? members : rest).push_back(i);
       open = std::move(rest);
+      const double mass = mass_of(in_use, members);
       if (mass < habit.least_time) break;  // nothing left gathers more
       const double share = peak_share(in_use, members);
       if (share < habit.least_share) continue;
@@ -171,12 +202,13 @@ Gathered gather_objects(const std::vector<UsedObject>& in_use, const View& view)
         all.insert(all.end(), members.begin(), members.end());
         continue;
       }
-      found.object.id = static_cast<int>(gathered.objects.size());
-      found.confidence = share * (1 - std::exp(-mass / habit.least_time));
+      found.confidence = confidence_of(in_use, members, static_cast<Superclass>(superclass), share, mass);
       gathered.objects.push_back(std::move(found));
       gathered.members.push_back(std::move(members));
     }
   }
+  tell_tables_from_shelves(gathered, in_use);
+  for (std::size_t i = 0; i < gathered.objects.size(); ++i) gathered.objects[i].object.id = static_cast<int>(i);
   return gathered;
 }
 

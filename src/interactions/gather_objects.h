@@ -16,6 +16,7 @@ struct UsedObject {
   Vec2 place = Vec2::Zero();  ///< of a seat where it is sat on, else the object's centre: what tells two objects apart
   double mass = 0;            ///< s, weight of the match times the time of its reading
   double share = 0;           ///< weight of the match
+  double likelihood = 0;      ///< of an interaction, at the reading
 };
 
 /// Used objects of all matches of a story, the matches moved along the path's positions.
@@ -23,7 +24,7 @@ std::vector<UsedObject> used_objects_in(int story, const std::vector<Reading>& r
                                         const std::vector<std::vector<bool>>& used);
 
 /// Objects where used objects gather: of one superclass, near each other across the view and somewhat farther along it, for long enough and
-/// convincingly enough. `members` has the indices of each.
+/// convincingly enough. Where a table and a shelf would be one piece it is what more votes are for. `members` has the indices of each.
 struct Gathered {
   std::vector<FoundObject> objects;
   std::vector<std::vector<std::size_t>> members;

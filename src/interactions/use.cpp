@@ -3,6 +3,7 @@
 #include "interactions/use.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "interactions/matching.h"
@@ -25,16 +26,28 @@ bool sits_on(const Pose& pose, const OrientedBox& seat) {
   return across(seat, hips) < 0.15 && above(seat, hips) > -0.25 && above(seat, hips) < 0.35;
 }
 
+constexpr std::array<std::pair<Joint, Joint>, 2> kHands = {{{right_wrist, right_hip}, {left_wrist, left_hip}}};
+
+/// Whether a hand is put out: those of who just stands beside a table or a shelf hang near it, too.
+bool is_put_out(const Vec3& hand, const Vec3& hip) {
+  constexpr double kHanging = 0.25;  // m, across the floor
+  return (hand - hip).head<2>().norm() > kHanging;
+}
+
 bool hand_over(const Pose& pose, const OrientedBox& top) {
-  for (const Joint hand : {right_wrist, left_wrist})
-    if (across(top, pose.col(hand)) < 0.1 && above(top, pose.col(hand)) > -0.15 && above(top, pose.col(hand)) < 0.35) return true;
-  return false;
+  constexpr double kStanding = 0.7;  // m, of the pelvis: who sits has the hands on his lap or on the table
+  return std::any_of(kHands.begin(), kHands.end(), [&](const auto& side) {
+    const Vec3 hand = pose.col(side.first);
+    return across(top, hand) < 0.1 && above(top, hand) > -0.15 && above(top, hand) < 0.35 &&
+           (pose(2, pelvis) < kStanding || is_put_out(hand, pose.col(side.second)));
+  });
 }
 
 bool hand_at(const Pose& pose, const OrientedBox& shelf) {
-  for (const Joint hand : {right_wrist, left_wrist})
-    if (beyond(shelf, pose.col(hand)).cwiseMax(0.0).norm() < 0.3) return true;
-  return false;
+  return std::any_of(kHands.begin(), kHands.end(), [&](const auto& side) {
+    const Vec3 hand = pose.col(side.first);
+    return beyond(shelf, hand).cwiseMax(0.0).norm() < 0.3 && is_put_out(hand, pose.col(side.second));
+  });
 }
 
 }  // namespace
