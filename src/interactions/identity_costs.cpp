@@ -124,7 +124,7 @@ double link_cost(const Take& take, const Sightings& s, int from, int to) {
   if (!s.before[a] && !s.after[b]) squared = motion(take.detections[a], take.detections[b], Vec2::Zero()).squared;
   const int missed = s.slot[b] - s.slot[a] - 1;
   return kMotion * squared / (kJoints * s.half_diagonal * s.half_diagonal * frames) + kAbsent * missed +
-         (missed > 0 ? leave_cost(take.detections[a]) + leave_cost(take.detections[b]) : 0.0);
+         std::min(kMissed * missed, leave_cost(take.detections[a]) + leave_cost(take.detections[b]));
 }
 
 double path_cost(const Take& take, const Sightings& s, const std::vector<int>& path) {

@@ -23,11 +23,11 @@ Object furniture(Superclass superclass, const Vec2& at) {
 
 /// Votes for an object from readings `first` to `last` of a story: ten matches each that agree, but for `noise` (m) in each direction.
 void vote(std::vector<UsedObject>& votes, Random& random, Superclass superclass, const Vec2& at, int story, std::size_t first, std::size_t last,
-          const Vec2& noise, double share = 1) {
+          const Vec2& noise, double share = 1, double likelihood = 0.8) {
   for (std::size_t reading = first; reading <= last; ++reading)
     for (int match = 0; match < 10; ++match) {
       const Vec2 place = at + Vec2(noise.x() * random.normal(), noise.y() * random.normal());
-      votes.push_back({story, reading, match, furniture(superclass, place), place, 0.02 * share, 0.1 * share});
+      votes.push_back({story, reading, match, furniture(superclass, place), place, 0.02 * share, 0.1 * share, likelihood});
     }
 }
 
@@ -70,6 +70,29 @@ TEST(GatherObjects, ChairAndTableInOnePlaceAreTwo) {
   const Gathered gathered = gather_objects(votes, level_view());
   ASSERT_EQ(gathered.objects.size(), 2u);
   EXPECT_NE(gathered.objects[0].object.superclass(), gathered.objects[1].object.superclass());
+}
+
+TEST(GatherObjects, TableAndShelfInOnePlaceAreOneOfThem) {
+  Random random(6);
+  for (const bool shelf : {false, true}) {
+    std::vector<UsedObject> votes;
+    vote(votes, random, shelf ? Superclass::shelf : Superclass::table, {0, 4}, 0, 0, 30, {0.04, 0.1}, 0.6);
+    vote(votes, random, shelf ? Superclass::table : Superclass::shelf, {0.1, 4.2}, 0, 40, 49, {0.04, 0.1}, 0.9);
+    const Gathered gathered = gather_objects(votes, level_view());
+    ASSERT_EQ(gathered.objects.size(), 1u);
+    EXPECT_EQ(gathered.objects[0].object.superclass(), shelf ? Superclass::shelf : Superclass::table);
+    EXPECT_EQ(gathered.members[0].size(), 310u) << "the votes for what it is";
+    EXPECT_GT(gathered.objects[0].confidence, 0.62) << "as sure as the surer one";
+    vote(votes, random, shelf ? Superclass::table : Superclass::shelf, {1.2, 4}, 0, 60, 80, {0.04, 0.1});
+    EXPECT_EQ(gather_objects(votes, level_view()).objects.size(), 2u) << "side by side they are two";
+  }
+}
+
+TEST(GatherObjects, ASeatOfWhoHardlyInteractsIsDoubtful) {
+  Random random(7);
+  std::vector<UsedObject> votes;
+  vote(votes, random, Superclass::sit, {0, 4}, 0, 0, 10, {0.04, 0.1}, 1, 0.25);
+  EXPECT_NEAR(gather_objects(votes, level_view()).objects.at(0).confidence, 0.5, 0.02);
 }
 
 TEST(GatherObjects, WhatIsBrieflyOrRarelyHeldLikelyIsNone) {

@@ -42,6 +42,21 @@ TEST(Uses, AShelfIsUsedByAHandAtIt) {
   EXPECT_FALSE(uses(with_hand(simple_pose(0), {0, 0.2, 1.3}), kShelf));
 }
 
+TEST(Uses, HandsThatHangBesideATableOrAShelfUseNeither) {
+  Pose stands = simple_pose(0);
+  const Vec3 hip = stands.col(right_hip);
+  const auto top_at = [](const Vec3& at) { return box_object(1, "table", "top", at, {0.5, 0.5, 0.05}); };
+  const auto shelf_at = [](const Vec3& at) { return box_object(2, "shelf", "shelf", at, {0.5, 0.5, 0.05}); };
+  const Vec3 hangs = hip + Vec3(0.15, 0.1, -0.1), leans = hip + Vec3(0.1, 0.4, -0.1);
+  EXPECT_FALSE(uses(with_hand(stands, hangs), top_at(hangs)));
+  EXPECT_FALSE(uses(with_hand(stands, hangs), shelf_at(hangs)));
+  EXPECT_TRUE(uses(with_hand(stands, leans), top_at(leans)));
+  EXPECT_TRUE(uses(with_hand(stands, leans), shelf_at(leans)));
+  const Pose sits = simple_pose(1);
+  const Vec3 lap = Vec3(sits.col(right_hip)) + Vec3(0, 0.1, 0.1);
+  EXPECT_TRUE(uses(with_hand(sits, lap), top_at(lap))) << "hands of who sits at a table";
+}
+
 TEST(Uses, PartsThatNobodyUsesAreNone) {
   EXPECT_FALSE(uses(simple_pose(1), box_object(0, "chair", "back", {0, 0, 0.42}, {0.5, 0.5, 0.08})));
   EXPECT_FALSE(uses(simple_pose(1), Object{}));
