@@ -36,7 +36,6 @@ Scenelet scenelet_of(const Recording& recording, const std::vector<std::vector<P
   for (std::size_t i = 0; i < recording.objects.size(); ++i)
     if (path_distance(s.poses, footprints[i]) <= reach) s.objects.push_back(to_local * recording.objects[i]);
   for (Pose& pose : s.poses) pose = to_local * pose;
-  s.motion = motion_descriptor(s.poses);
   s.layout = layout_descriptor(s.objects);
   return s;
 }

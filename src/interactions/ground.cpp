@@ -17,7 +17,8 @@ constexpr double kAnkleHeight = 0.13;         // m, of the joint that detectors 
 constexpr double kTorso = 0.44, kLeg = 0.77;  // m, shoulders to hips and hip to ankle of an adult of 1.7 m
 constexpr double kUsualHeight = 1.3, kHeightSd = 0.4;         // m, of cameras that film people
 constexpr double kUsualPitch = 0.06, kPitchSd = 0.06;         // rad
-constexpr double kKnownSd = 1e-3;                             // of what the take gives
+constexpr double kKnownSd = 1e-4;                             // of what the take gives
+constexpr double kSteepest = 1.4;                             // rad
 constexpr double kPoseSd = 0.05, kStatureSd = 0.06;           // of a length in the picture, as a share: who leans, and who is tall
 constexpr double kRough = 1.5;                                // sd beyond which a foot counts less and less
 constexpr double kCorrelated = 0.5;                           // s that one stance lasts
@@ -82,42 +83,39 @@ struct Floor {
 /// An ankle that is seen at the tangent t on a floor h below has the inverse depth (t + slope) / h: a line over t, which is exact beside the
 /// lengths that inverse depths are read from. Least squares with Cauchy weights for (1/h, slope/h) and each person's stature.
 Floor fit_floor(const std::vector<Foot>& feet, int people, const Usual& usual, double fps) {
-  const Eigen::Index size = 2 + people;
-  const double inverse = 1 / usual.height, inverse_sd = usual.height_sd * inverse * inverse, stance = std::max(1.0, kCorrelated * fps);
-  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(size, size);
-  const Vec2 slope_row = Vec2(-usual.slope, 1) / (usual.slope_sd * inverse);
-  prior.topLeftCorner<2, 2>() = slope_row * slope_row.transpose();
-  prior(0, 0) += 1 / (inverse_sd * inverse_sd);
-  prior.diagonal().tail(people).setConstant(1 / (kStatureSd * kStatureSd));
-  Eigen::VectorXd prior_right = Eigen::VectorXd::Zero(size), solution, weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(feet.size()));
-  prior_right[0] = inverse / (inverse_sd * inverse_sd);
+  constexpr double kLeastInverse = 1e-3;  // 1/m
+  const double inverse = 1 / usual.height, stance = std::max(1.0, kCorrelated * fps);
+  const auto count = static_cast<Eigen::Index>(feet.size()), size = static_cast<Eigen::Index>(2 + people);
+
+  Eigen::MatrixXd prior = Eigen::MatrixXd::Zero(size, size);  // rows that are 1 a standard deviation, like those of feet
+  Eigen::VectorXd prior_right = Eigen::VectorXd::Zero(size);
+  prior(0, 0) = usual.height * usual.height / usual.height_sd;
+  prior_right[0] = usual.height / usual.height_sd;
+  prior.row(1).head<2>() = Vec2(-usual.slope, 1) / (usual.slope_sd * inverse);
+  prior.diagonal().tail(people).setConstant(1 / kStatureSd);
+
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(count, size);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Foot& foot = feet[static_cast<std::size_t>(i)];
+    rows.row(i).head<2>() = Vec2(foot.below, 1) / (kPoseSd * foot.inverse_depth);
+    rows(i, 2 + foot.person) = 1 / kPoseSd;  // who is taller than usual seems nearer
+  }
+  const Eigen::VectorXd right = Eigen::VectorXd::Constant(count, 1 / kPoseSd);
+
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(count), solution;
   Eigen::MatrixXd normal;
   for (int round = 0; round < 30; ++round) {
-    normal = prior;
-    Eigen::VectorXd right = prior_right;
-    const auto row_of = [&](const Foot& foot) {
-      Eigen::VectorXd row = Eigen::VectorXd::Zero(size);
-      row.head<2>() = Vec2(foot.below, 1) / foot.inverse_depth;
-      row[2 + foot.person] = 1;  // who is taller than usual seems nearer
-      return Eigen::VectorXd(row / kPoseSd);
-    };
-    for (std::size_t i = 0; i < feet.size(); ++i) {
-      const Eigen::VectorXd row = row_of(feet[i]);
-      const double weight = weights[static_cast<Eigen::Index>(i)] / stance;
-      normal += weight * row * row.transpose();
-      right += weight / kPoseSd * row;
-    }
-    solution = normal.ldlt().solve(right);
-    for (std::size_t i = 0; i < feet.size(); ++i) {
-      const double off = (row_of(feet[i]).dot(solution) - 1 / kPoseSd) / kRough;
-      weights[static_cast<Eigen::Index>(i)] = 1 / (1 + off * off);
-    }
+    const Eigen::MatrixXd weighted = rows.transpose() * (weights / stance).asDiagonal();
+    normal = prior.transpose() * prior + weighted * rows;
+    solution = normal.ldlt().solve(prior.transpose() * prior_right + weighted * right);
+    weights = 1 / (1 + ((rows * solution - right) / kRough).array().square());
   }
-  Floor floor{1 / solution[0], solution[1] / solution[0], {}};
-  Eigen::Matrix2d jacobian;
+  Floor floor;
+  floor.height = 1 / std::max(solution[0], kLeastInverse);
+  floor.slope = solution[1] * floor.height;
+  Eigen::Matrix2d jacobian;  // of (height, slope) by (1/height, slope/height)
   jacobian << -floor.height * floor.height, 0, -floor.slope * floor.height, floor.height;
-  const Eigen::Matrix2d covariance = jacobian * normal.inverse().topLeftCorner<2, 2>() * jacobian.transpose();
-  floor.information = covariance.inverse();
+  floor.information = (jacobian * normal.inverse().topLeftCorner<2, 2>() * jacobian.transpose()).inverse();
   return floor;
 }
 
@@ -135,7 +133,7 @@ GroundStart find_ground(const Take& take, Context& context) {
     if (const auto foot = detection.person >= 0 ? lower_foot(levelled(detection, take.camera, ground.roll), take.camera) : std::nullopt) feet.push_back(*foot);
   Usual usual;
   if (take.up) {
-    usual.slope = std::tan(ground.pitch);
+    usual.slope = std::tan(std::clamp(ground.pitch, -kSteepest, kSteepest));
     usual.slope_sd = kKnownSd;
   }
   if (take.camera_height) {
@@ -144,7 +142,7 @@ GroundStart find_ground(const Take& take, Context& context) {
   }
   const Floor floor = fit_floor(feet, take.people, usual, take.fps);
   ground.source = take.camera_height ? "given" : feet.empty() ? "assumed" : "feet";
-  ground.pitch = std::atan(floor.slope);
+  if (!take.up) ground.pitch = std::atan(floor.slope);
   ground.camera_height = take.camera_height.value_or(floor.height * std::cos(ground.pitch) + kAnkleHeight);
   start.information = floor.information;
   if (is_turned(take, ground.roll))

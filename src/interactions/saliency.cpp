@@ -22,7 +22,7 @@ Table motions(const std::vector<Scenelet>& scenelets) {
   const Eigen::Matrix<float, kDescriptorPoses, 1> scale = pose_weights().cwiseSqrt();
   Table columns(kJointLines * kDescriptorPoses, scenelets.size());
   for (std::size_t i = 0; i < scenelets.size(); ++i) {
-    const Eigen::Matrix<float, kJointLines, kDescriptorPoses> scaled = scenelets[i].motion * scale.asDiagonal();
+    const Eigen::Matrix<float, kJointLines, kDescriptorPoses> scaled = motion_descriptor(scenelets[i].poses) * scale.asDiagonal();
     columns.col(static_cast<Eigen::Index>(i)) = scaled.reshaped().cast<double>();
   }
   return columns;

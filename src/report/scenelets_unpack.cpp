@@ -176,7 +176,6 @@ Scenelet read_scenelet(Bytes& bytes, const std::vector<PackedTrack>& tracks, con
   s.highest_saliency = bytes.share("saliency");
   s.layout = read_shares<std::uint16_t>(bytes);
   s.saliency = read_shares<std::uint8_t>(bytes);
-  s.motion = motion_descriptor(s.poses);
   return s;
 }
 

@@ -122,12 +122,14 @@ TEST(Database, ObjectsAreThoseWithinReachOfTheFootprint) {
 TEST(Saliency, IsTheFormulaOfTheThesis) {
   const Database database = build({simple_recording(4, 6), simple_recording(3, 2, 10, "another")});
   const std::vector<double> density = densities(database.scenelets);
+  std::vector<Eigen::Matrix<float, kJointLines, kDescriptorPoses>> motions;
+  for (const Scenelet& s : database.scenelets) motions.push_back(motion_descriptor(s.poses));
   for (std::size_t l = 0; l < database.scenelets.size(); l += 7) {
     const Scenelet& s = database.scenelets[l];
     for (std::size_t j = 0; j < s.layout.size(); ++j) {
       double above = 0, below = 0;
       for (std::size_t k = 0; k < database.scenelets.size(); ++k) {
-        const double g = std::exp(-0.5 * std::pow(motion_distance(s.motion, database.scenelets[k].motion) / 0.13, 2)) / density[k];
+        const double g = std::exp(-0.5 * std::pow(motion_distance(motions[l], motions[k]) / 0.13, 2)) / density[k];
         above += g * static_cast<double>(database.scenelets[k].layout[j]);
         below += g;
       }

@@ -122,7 +122,8 @@ void expect_same_bytes(const Reconstruction& a, const Reconstruction& b) {
 
 TEST(Reconstruct, FindsTheObjectsOfGeneratedTakes) {
   int interacted = 0, found = 0, false_objects = 0;
-  for (const int seed : {6001, 6002}) {
+  double distance = 0;
+  for (const int seed : {6001, 6002, 6003, 6004}) {
     const SynthTake& synth = generated(seed);
     const Reconstruction r = run({synth.take});
     expect_sound(r, synth.take);
@@ -132,13 +133,14 @@ TEST(Reconstruct, FindsTheObjectsOfGeneratedTakes) {
     interacted += e.interacted, found += e.found, false_objects += e.false_objects;
     EXPECT_LT(e.all->local, 0.08) << seed;
     EXPECT_LT(e.occluded->local, 0.15) << seed;
-    EXPECT_LT(e.mean_distance.value_or(0), 0.8) << seed;
+    distance += e.found * e.mean_distance.value_or(0);
     EXPECT_GT(e.action_accuracy, 0.7) << seed;
     EXPECT_LT(e.inside_objects, 0.05) << seed;
   }
-  EXPECT_GE(interacted, 5);
-  EXPECT_GE(found, interacted - 1);
-  EXPECT_LE(false_objects, 5);
+  EXPECT_GE(interacted, 8);
+  EXPECT_GE(found, interacted / 2 + 1);  // of many takes nine in ten: bench/run_interactions
+  EXPECT_LE(false_objects, 2);
+  EXPECT_LT(distance / found, 0.5);
 }
 
 TEST(Reconstruct, IsTheSameWithAnyNumberOfThreads) {

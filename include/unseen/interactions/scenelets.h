@@ -25,7 +25,6 @@ struct Scenelet {
   std::vector<bool> valid;  ///< poses that were recorded; others are interpolated
   std::vector<Action> actions;
   std::vector<Object> objects;
-  Eigen::Matrix<float, kJointLines, kDescriptorPoses> motion;  ///< Ψ, m
   std::vector<float> layout;    ///< Φ, [category][row][column]
   std::vector<float> saliency;  ///< h, the same places
   double highest_saliency = 0;  ///< H in [0,1]: above what any motion has, see src/interactions/saliency.h
