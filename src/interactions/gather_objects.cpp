@@ -8,13 +8,15 @@
 namespace unseen::interactions {
 namespace {
 
-/// How votes of a superclass gather: sd across and along the view (m, share of the distance), and what is enough.
+/// How votes of a superclass gather: sd across and along the view (m, share of the distance), what is enough, and what makes sure: who gestures
+/// reaches for a shelf now and then.
 struct Habit {
   double across, along;
   double least_time;   // s
+  double sure_time;    // s, of time constant
   double least_share;  // of a reading's matches
 };
-constexpr std::array<Habit, 3> kHabits = {{{0.16, 0.07, 0.5, 0.5}, {0.30, 0.10, 1.0, 0.4}, {0.30, 0.10, 1.5, 0.4}}};
+constexpr std::array<Habit, 3> kHabits = {{{0.16, 0.07, 0.5, 0.5, 0.5}, {0.30, 0.10, 1.0, 1.0, 0.4}, {0.30, 0.10, 1.5, 3.0, 0.4}}};
 constexpr double kReadingTime = 0.2;  // s that a reading stands for
 constexpr double kGate = 2.5;  // sd
 
@@ -121,7 +123,7 @@ Object describe(const std::vector<UsedObject>& in_use, const std::vector<std::si
 /// How much their votes say that the object is there: those for a seat had better be of people who seem to interact, for who bends looks like one who sits.
 double confidence_of(const std::vector<UsedObject>& in_use, const std::vector<std::size_t>& members, Superclass superclass, double share, double mass) {
   constexpr double kSurelySits = 0.5;  // likelihood of an interaction
-  const double confidence = share * (1 - std::exp(-mass / kHabits[static_cast<std::size_t>(superclass)].least_time));
+  const double confidence = share * (1 - std::exp(-mass / kHabits[static_cast<std::size_t>(superclass)].sure_time));
   if (superclass != Superclass::sit) return confidence;
   double likelihood = 0;
   for (const std::size_t i : members) likelihood += in_use[i].mass * in_use[i].likelihood;
