@@ -145,7 +145,8 @@ Shown interactions_result(const std::filesystem::path& folder, const report::Sto
   std::vector<interactions::Take> takes;
   try {  // without the take the page does not show what the detector saw, and says so
     check_input(run.input, context);
-    takes.push_back(report::read_take(run.input.path));
+    const std::string& path = run.input.path;
+    takes.push_back(options.pose_model.empty() ? report::read_take(path) : report::detect_poses(options.pose_model, path, options.network, context));
   } catch (const InputError& error) {
     r.summary.warnings.push_back(fmt::format("shown without the detections: {}", error.what()));
     context.warn(r.summary.warnings.back());
