@@ -24,7 +24,7 @@ std::size_t told_apart(Action action) {
 }
 
 constexpr double kAnyDistance = 1e9;  // m, wider than any scene
-constexpr auto kSeenJoints = 4;       // of somebody who is seen at all
+constexpr int kSeenJoints = 4;       // of somebody who is seen at all
 
 bool is_seen(const RecordedFrame& truth) { return kJoints - std::count(truth.occluded.begin(), truth.occluded.end(), true) >= kSeenJoints; }
 
@@ -77,7 +77,8 @@ double identity_share(const std::vector<Person>& found, const Recording& truth, 
     for (std::size_t t = 0; t < people.size(); ++t)
       for (std::size_t p = 0; p < found.size(); ++p) {
         const PersonFrame* at = frame_at(found[p], frame);
-        distance(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(p)) = at ? seen_apart(at->pose, people[t].second->pose, truth.T_world_camera.translation) : INFINITY;
+        distance(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(p)) =
+            at ? seen_apart(at->pose, people[t].second->pose, truth.T_world_camera.translation) : INFINITY;
       }
     const std::vector<int> best = assign(distance, kAnyDistance);
     for (std::size_t t = 0; t < people.size(); ++t) ++frames, right += best[t] >= 0 && best[t] == match[people[t].first];

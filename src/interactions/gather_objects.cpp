@@ -169,7 +169,8 @@ std::vector<UsedObject> used_objects_in(int story, const std::vector<Reading>& r
       for (std::size_t o = 0; o < scenelet.objects.size(); ++o) {
         const Object& object = scenelet.objects[o];
         if (!used[static_cast<std::size_t>(match.scenelet)][o] || object.superclass() == Superclass::other) continue;
-        UsedObject one{story, r, match.scenelet, placement * object, Vec2::Zero(), readings[r].weights[i] * kReadingTime, readings[r].weights[i], readings[r].likelihood};
+        UsedObject one{story, r, match.scenelet, placement * object, Vec2::Zero(),
+                       readings[r].weights[i] * kReadingTime, readings[r].weights[i], readings[r].likelihood};
         one.place = object.superclass() == Superclass::sit ? Vec2(placement.position.head<2>()) : Vec2(one.object.center().head<2>());
         in_use.push_back(std::move(one));
       }

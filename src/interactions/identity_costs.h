@@ -23,7 +23,7 @@ Sightings sightings_of(const Take& take);
 
 constexpr double kAbsent = 1.0;   ///< of a person in a frame without a detection (Eq. 6.14)
 constexpr double kLeave = 20.0;   ///< of leaving when seen well, and of coming back so
-constexpr double kMissed = 2.0;   ///< of a frame missed between two, as long as that is less than leaving and coming back
+constexpr double kMissed = 2.0;   ///< of a frame missed between two detections
 constexpr double kMotion = 1e3;   ///< weight of motion (Eq. 6.16)
 
 /// Of a person at a detection: minus the mean confidence of its joints (Eq. 6.14).
@@ -34,9 +34,9 @@ double presence_cost(const Detection& detection);
 double leave_cost(const Detection& detection);
 
 /// Of a person at two detections of different frames and none between: the mean over joints of confidence-weighted squared motion in half
-/// diagonals of the image (Eq. 6.15), over the number of frames between, plus the frames missed, leaving and coming back. Motion is what the velocity before the one
-/// does not explain, or the velocity after the other, whichever explains more: people who cross would
-/// otherwise seem to turn back.
+/// diagonals of the image (Eq. 6.15), over the number of frames between, plus the frames missed: each costs kAbsent + kMissed, or together
+/// leaving and coming back if that is less. Motion is what the velocity before the one does not explain, or the velocity after the other,
+/// whichever explains more: people who cross would otherwise seem to turn back.
 double link_cost(const Take& take, const Sightings& sightings, int from, int to);
 
 /// Of a person's whole path, given as its detections by frame: the model that identify() minimises.

@@ -76,7 +76,8 @@ class Network {
     }
   }
   void add_long_link(MinCostFlow& flow, int from, int to) const {
-    if (can_link(from, to)) flow.add(out(from), in(to), 1, leave_cost(detection(from)) + leave_cost(detection(to)) + kAbsent * (slot_of(to) - slot_of(from) - 1));
+    const double missed = slot_of(to) - slot_of(from) - 1;
+    if (can_link(from, to)) flow.add(out(from), in(to), 1, leave_cost(detection(from)) + leave_cost(detection(to)) + kAbsent * missed);
   }
 
   Paths detections_of(const std::vector<std::vector<std::size_t>>& paths) const {
