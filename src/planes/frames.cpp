@@ -14,13 +14,14 @@ void add_line(std::vector<Vec3>& lines, const Vec3& line) {
   lines.push_back(line);
 }
 
-double nearest(const Vec3& direction, const OrientationFrame& frame, const std::vector<Vec3>& locals,
-               const AngleSet& angles) {
-  if (!frame.closed) return angles.deviation(line_angle(direction, frame.axes.col(0)));
-  const Vec3 in_frame = frame.axes.transpose() * direction;
-  double largest = 0;  // cosine
-  for (const Vec3& l : locals) largest = std::max(largest, std::abs(l.dot(in_frame)));
-  return std::acos(std::min(largest, 1.0));  // rounding of small angles, up to 1e-8, costs nothing here
+/// Angle of two lines. Rounding of small angles, up to 1e-8, costs nothing here.
+double angle_of(double cosine) { return std::acos(std::min(std::abs(cosine), 1.0)); }
+
+/// Largest cosine between a line and the directions of a frame in whose coordinates it is given.
+double nearest_cosine(const Vec3& line, const std::vector<Vec3>& locals) {
+  double largest = 0;
+  for (const Vec3& l : locals) largest = std::max(largest, std::abs(l.dot(line)));
+  return largest;
 }
 
 }  // namespace
@@ -76,21 +77,22 @@ OrientationFrame open_frame(const Vec3& a, const Space& space) {
 double irregularity(const OrientationFrame& a, const OrientationFrame& b, const std::vector<Vec3>& locals,
                     const AngleSet& angles) {
   double sum = 0;
-  int count = 0;
-  const auto add = [&](const OrientationFrame& from, const OrientationFrame& to) {
-    if (!from.closed) {
-      sum += nearest(from.axes.col(0), to, locals, angles);
-      ++count;
-      return;
-    }
-    for (const Vec3& l : locals) {
-      sum += nearest(from.direction(l), to, locals, angles);
-      ++count;
-    }
-  };
-  add(a, b);
-  add(b, a);
-  return 1.0 - std::exp(-3.0 * sum / count);
+  std::size_t count = 1;
+  if (a.closed && b.closed) {
+    const Mat3 turn = a.axes.transpose() * b.axes;
+    for (const Vec3& l : locals)
+      sum += angle_of(nearest_cosine(turn * l, locals)) + angle_of(nearest_cosine(turn.transpose() * l, locals));
+    count = 2 * locals.size();
+  } else if (a.closed || b.closed) {
+    const OrientationFrame &closed = a.closed ? a : b, &open = a.closed ? b : a;
+    const Vec3 single = closed.axes.transpose() * open.axes.col(0);
+    sum = angle_of(nearest_cosine(single, locals));
+    for (const Vec3& l : locals) sum += angles.deviation(angle_of(l.dot(single)));
+    count = 1 + locals.size();
+  } else {
+    sum = angles.deviation(angle_of(a.axes.col(0).dot(b.axes.col(0))));
+  }
+  return 1.0 - std::exp(-3.0 * sum / static_cast<double>(count));
 }
 
 double tilt_chi2(const Patch& patch, const Vec3& normal) {

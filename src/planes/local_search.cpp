@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kImpossible = 1e4;  // stands for an infinite cost, so that differences stay numbers
 constexpr int kSubsetFrames = 10;   // all subsets of this many frames are tried …
+constexpr std::size_t kSubsetBlock = 128;  // subsets that one thread tries
 constexpr int kSubsetPatches = 80;  // … for problems up to this size
-constexpr int kShakes = 12;          // random starts
+constexpr int kShakes = 3, kStartsOfShake = 4;  // times that the best is shaken, starts from it each time
 constexpr std::size_t kSwaps = 24;  // frames that may replace another, the most promising ones
 
 /// A problem with what the search asks for again and again.
@@ -160,17 +161,23 @@ class Search {
       widen(rest, 3);
     }
     widen(state.open, kSubsetFrames);
-    State best = state;
     const std::vector<int> base = fixed();
-    for (unsigned set = 0; set < 1u << pool.size(); ++set) {
-      std::vector<int> open = base;
-      for (std::size_t i = 0; i < pool.size(); ++i)
-        if (set >> i & 1) open.push_back(pool[i]);
-      if (open.empty()) continue;
-      if ((set & 63) == 0) context_.check();
-      State s = evaluate(open, best.energy - 1e-8);
+    const std::size_t sets = std::size_t{1} << pool.size();
+    std::vector<State> best_of_block((sets + kSubsetBlock - 1) / kSubsetBlock, state);
+    parallel_blocks(context_, best_of_block.size(), 1, [&](std::size_t block, std::size_t) {
+      State& best = best_of_block[block];
+      for (std::size_t set = block * kSubsetBlock; set < std::min(sets, (block + 1) * kSubsetBlock); ++set) {
+        std::vector<int> open = base;
+        for (std::size_t i = 0; i < pool.size(); ++i)
+          if (set >> i & 1) open.push_back(pool[i]);
+        if (open.empty()) continue;
+        State s = evaluate(open, best.energy - 1e-8);
+        if (s.energy < best.energy - 1e-8) best = std::move(s);
+      }
+    });
+    State best = state;
+    for (State& s : best_of_block)
       if (s.energy < best.energy - 1e-8) best = std::move(s);
-    }
     return best;
   }
 
@@ -338,34 +345,44 @@ Labels solve_local(const SelectionProblem& problem, const Context& context, cons
   const Search search(problem, context);
   const std::vector<int> fixed = search.fixed();
   Search::State best;
-  const auto attempt = [&](std::vector<int> open) {
-    Search::State s = search.improve(search.evaluate(search.open_frames(std::move(open))));
-    if (s.energy < best.energy - 1e-8) best = std::move(s);
+  const auto attempt = [&](std::vector<std::vector<int>> starts) {
+    std::vector<Search::State> found(starts.size());
+    parallel_blocks(context, starts.size(), 1, [&](std::size_t i, std::size_t) {
+      found[i] = search.improve(search.evaluate(search.open_frames(std::move(starts[i]))));
+    });
+    for (Search::State& s : found)
+      if (s.energy < best.energy - 1e-8) best = std::move(s);
   };
-  attempt(fixed);
+  std::vector<std::vector<int>> starts = {fixed};
   if (!start.empty()) {
     std::vector<int> open = fixed;
     for (const int k : start)
       if (std::find(open.begin(), open.end(), k) == open.end()) open.push_back(k);
-    attempt(std::move(open));
+    starts.push_back(std::move(open));
   }
-  if (problem.patches() > kSubsetPatches) return best.labels;
+  const bool small = problem.patches() <= kSubsetPatches;
   // Other starts: from each of the frames that would be best alone, and from what is best so far, shaken.
-  for (const int k : search.promising(fixed, 3)) {
+  for (const int k : search.promising(fixed, small ? 3 : 0)) {
     std::vector<int> open = fixed;
     open.push_back(k);
-    attempt(std::move(open));
+    starts.push_back(std::move(open));
   }
+  attempt(std::move(starts));
+  if (!small) return best.labels;
   Random random(1);
   for (int shake = 0; shake < kShakes; ++shake) {
-    std::vector<int> open = fixed;
-    for (const int k : best.open)
-      if (!problem.fixed[k] && random.uniform() < 0.5) open.push_back(k);
-    for (int add = 0; add < 3; ++add) {
-      const int k = static_cast<int>(random.index(problem.frames()));
-      if (std::find(open.begin(), open.end(), k) == open.end()) open.push_back(k);
+    starts.clear();
+    for (int i = 0; i < kStartsOfShake; ++i) {
+      std::vector<int> open = fixed;
+      for (const int k : best.open)
+        if (!problem.fixed[k] && random.uniform() < 0.5) open.push_back(k);
+      for (int add = 0; add < 3; ++add) {
+        const int k = static_cast<int>(random.index(problem.frames()));
+        if (std::find(open.begin(), open.end(), k) == open.end()) open.push_back(k);
+      }
+      starts.push_back(std::move(open));
     }
-    attempt(std::move(open));
+    attempt(starts);
   }
   return search.improve(search.all_subsets(best)).labels;
 }

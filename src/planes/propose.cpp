@@ -36,15 +36,11 @@ std::vector<Direction> cluster_normals(const Patches& patches, const std::vector
   return directions;
 }
 
+/// True if two closed frames have the same axes, in whatever order.
 bool same(const OrientationFrame& a, const OrientationFrame& b) {
-  if (a.closed != b.closed) return false;
-  if (!a.closed) return line_angle(a.axes.col(0), b.axes.col(0)) < kCluster / 3;
-  for (int i = 0; i < 3; ++i) {
-    double least = kPi;
-    for (int k = 0; k < 3; ++k) least = std::min(least, line_angle(a.axes.col(i), b.axes.col(k)));
-    if (least > kCluster / 3) return false;
-  }
-  return true;
+  static const double least = std::cos(kCluster / 3);
+  const Mat3 cosines = (a.axes.transpose() * b.axes).cwiseAbs();
+  return (cosines.rowwise().maxCoeff().array() >= least).all();
 }
 
 }  // namespace
