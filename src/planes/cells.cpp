@@ -24,19 +24,26 @@ struct Level {
 Moments gather(const VoxelGrid& grid, std::size_t voxel, const Vec3& center, double radius) {
   double n = 0;
   Vec3 first = Vec3::Zero();
-  Mat3 second = Mat3::Zero();
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   grid.for_neighbours(voxel, 2, [&](int i) {
     const Moments& m = grid.moments[i];
     const Vec3 d = m.mean - center;
     if (d.squaredNorm() > radius * radius) return;
+    const Vec3 sum = m.count * d;
     n += m.count;
-    first += m.count * d;
-    second += m.scatter + m.count * d * d.transpose();
+    first += sum;
+    xx += m.scatter(0, 0) + sum.x() * d.x();
+    xy += m.scatter(1, 0) + sum.x() * d.y();
+    xz += m.scatter(2, 0) + sum.x() * d.z();
+    yy += m.scatter(1, 1) + sum.y() * d.y();
+    yz += m.scatter(2, 1) + sum.y() * d.z();
+    zz += m.scatter(2, 2) + sum.z() * d.z();
   });
   Moments m;
   m.count = n;
   m.mean = center + first / n;
-  m.scatter = second - first * first.transpose() / n;
+  m.scatter << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  m.scatter -= first * first.transpose() / n;
   return m;
 }
 

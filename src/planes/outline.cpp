@@ -22,27 +22,29 @@ struct Raster {
   }
 };
 
-/// Maximum (or minimum) over a square of the given radius, one axis after the other.
+/// Marks cells with full ones (or, to erode, only such) within `radius` along both axes: for each cell of a row,
+/// `run` counts those above and below that have the value that wins.
 Raster dilate(const Raster& r, int radius, bool erode) {
-  const auto pass = [&](const Raster& from, bool along_x) {
-    Raster to = from;
-    const int lines = along_x ? from.height : from.width, length = along_x ? from.width : from.height;
-    for (int l = 0; l < lines; ++l) {
-      int run = 0;  // how many of the cells within reach have the value that wins
-      const auto wins = [&](int i) {
-        const bool full = along_x ? from.full(i, l) : from.full(l, i);
-        return full != erode;
-      };
-      for (int i = 0; i < std::min(radius, length); ++i) run += wins(i);
-      for (int i = 0; i < length; ++i) {
-        if (i + radius < length) run += wins(i + radius);
-        if (i - radius - 1 >= 0) run -= wins(i - radius - 1);
-        (along_x ? to.at(i, l) : to.at(l, i)) = (run > 0) != erode;
-      }
-    }
-    return to;
+  Raster to = r;
+  std::vector<int> run(r.width, 0);
+  const auto count_row = [&](int y, int weight) {
+    if (y < 0 || y >= r.height) return;
+    const std::uint8_t* row = &r.cells[static_cast<std::size_t>(y) * r.width];
+    for (int x = 0; x < r.width; ++x) run[x] += (row[x] != erode) * weight;
   };
-  return pass(pass(r, true), false);
+  for (int y = 0; y < radius; ++y) count_row(y, 1);
+  for (int y = 0; y < r.height; ++y) {
+    count_row(y + radius, 1);
+    count_row(y - radius - 1, -1);
+    int along = 0;
+    for (int x = 0; x < std::min(radius, r.width); ++x) along += run[x] > 0;
+    for (int x = 0; x < r.width; ++x) {
+      if (x + radius < r.width) along += run[x + radius] > 0;
+      if (x - radius - 1 >= 0) along -= run[x - radius - 1] > 0;
+      to.at(x, y) = (along > 0) != erode;
+    }
+  }
+  return to;
 }
 
 /// Keeps the largest part connected by edges; returns how many cells it has.
