@@ -12,7 +12,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kProbes = 2000;
+constexpr std::size_t kProbes = 2000, kNormalProbes = 500;  // for the scale; for whether normals are usable
 constexpr double kSparsest = 3.0;  // times the typical spacing
 
 struct Sample {
@@ -33,11 +33,11 @@ struct Probe {
   std::size_t index = 0;
 };
 
-std::vector<Probe> probe(const Survey& survey, const Space& space, const Context& context) {
+std::vector<Probe> probe(const Survey& survey, const Space& space, std::size_t most, const Context& context) {
   constexpr std::size_t kNeighbours = 32;
   const Sample sample{survey.sample};
   const Tree tree(3, sample, {10});
-  std::vector<Probe> probes(std::min(kProbes, survey.sample.size()));
+  std::vector<Probe> probes(std::min(most, survey.sample.size()));
   const std::size_t count = std::min(kNeighbours, survey.sample.size());
   parallel_blocks(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> index(count);
@@ -84,7 +84,7 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
   } else if (options.relative_scale) {
     scale = *options.relative_scale * extent;
   } else {
-    const std::vector<Probe> probes = probe(survey, space, context);
+    const std::vector<Probe> probes = probe(survey, space, kProbes, context);
     // Thinning a surface to a share f of its points spreads them by 1/√f, a line by 1/f.
     const double thinning = space.is_2d() ? survey.share : std::sqrt(survey.share);
     const double spacing = thinning * median(probes, space, [](const Probe& p) { return p.sixth; });
@@ -100,7 +100,7 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
 
 bool normals_usable(const Survey& survey, const Space& space, const Context& context) {
   if (!survey.has_normals() || 2 * survey.without_normal > survey.finite) return false;
-  const std::vector<Probe> probes = probe(survey, space, context);
+  const std::vector<Probe> probes = probe(survey, space, kNormalProbes, context);
   return median(probes, space, [&](const Probe& p) {
            const Vec3 n = survey.sample_normals[p.index].cast<double>();
            return n.norm() > 0.5 ? line_angle(n, p.fit.normal) : kPi / 2;
