@@ -15,7 +15,8 @@ constexpr std::size_t kRefined = 80, kKept = 40;
 constexpr double kOcclusion = 0.5;      // of the occlusion cost to the squared distance
 constexpr double kTemperature = 0.001;  // m² of error over which a match loses most of its weight
 
-/// Mean of the occlusion cost over the glance's joints: those that are not seen should be behind the match's objects (thesis Eq. 6.3). m²
+/// Mean of the occlusion cost over the glance's joints: those that are not seen should be behind the match's objects (thesis Eq. 6.3), unless somebody stands
+/// in front. m²
 double unexplained(const Match& match, const Glance& glance, const Scenelet& scenelet, const Vec3& camera) {
   std::vector<Shadow> shadows;
   for (const Object& object : scenelet.objects)
@@ -26,7 +27,9 @@ double unexplained(const Match& match, const Glance& glance, const Scenelet& sce
     const auto pose = pose_at(scenelet, glance.offsets[i]);
     if (!pose) continue;
     const Pose placed = match.placement * *pose;
-    for (int k = 0; k < kJoints; ++k) cost += occlusion_cost(placed.col(k), glance.sights[i]->confidence[k], shadows);
+    for (int k = 0; k < kJoints; ++k)
+      if (!glance.sights[i]->behind_others[static_cast<std::size_t>(k)])
+        cost += occlusion_cost(placed.col(k), glance.sights[i]->confidence[k], shadows);
     joints += kJoints;
   }
   return joints > 0 ? cost / joints : 0;

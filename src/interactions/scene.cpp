@@ -34,7 +34,7 @@ double interpolated_likelihood(const std::vector<Reading>& readings, int frame) 
 
 /// The price of an object, by superclass: with less confidence, most objects of generated takes were false. Seats and tables need a window as well.
 bool convincing(const FoundObject& found) {
-  constexpr std::array<double, 3> kLeast = {0.9, 0.45, 0.45};
+  constexpr std::array<double, 3> kLeast = {0.7, 0.45, 0.4};
   const Superclass superclass = found.object.superclass();
   return found.confidence >= kLeast[static_cast<std::size_t>(superclass)] && (superclass == Superclass::shelf || !found.windows.empty());
 }

@@ -33,6 +33,7 @@ struct Sight {
   std::array<Vec3, kJoints> rays;  ///< unit
   std::array<Mat3, kJoints> information;
   double depth = 0;  ///< m, rough: of a torso of usual length; 0 = not known
+  std::array<bool, kJoints> behind_others = {};  ///< joints that are not seen for somebody stands in front of them
   std::optional<Pose> local;  ///< world axes, pelvis at the origin
 };
 

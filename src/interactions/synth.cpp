@@ -28,12 +28,14 @@ Cast draw_cast(const Room& room, const SynthOptions& options, Random& random) {
   return cast;
 }
 
-/// Does the body rest on the object, or has it a hand there? Who is about to sit down has not touched the seat yet.
+/// Does the body rest on the object, or has it a hand there? Who is about to sit down has not touched the seat yet. The hips of tall people are
+/// 0.13 m above what they sit on.
 bool touches(const Pose& pose, const Object& object) {
+  constexpr std::array<std::pair<Joint, double>, 3> kNear = {{{pelvis, 0.15}, {right_wrist, 0.12}, {left_wrist, 0.12}}};  // m
   for (const Part& part : object.parts)
-    for (const Joint joint : {pelvis, right_wrist, left_wrist}) {
+    for (const auto& [joint, near] : kNear) {
       const Vec3 outside = (part.box.axes.transpose() * (pose.col(joint) - part.box.center)).cwiseAbs() - part.box.half_size;
-      if (outside.cwiseMax(0.0).norm() < 0.12) return true;
+      if (outside.cwiseMax(0.0).norm() < near) return true;
     }
   return false;
 }

@@ -70,6 +70,70 @@ TEST(Sights, AreRaysThroughWhatIsSeen) {
     }
 }
 
+/// A standing person's joints in the picture, `depth` m away and `right` of its middle; all are seen.
+Detection upright(const Camera& camera, double right, double depth, int person) {
+  Detection d;
+  d.person = person;
+  d.confidence.setConstant(0.9);
+  const Pose pose = test::simple_pose(0);
+  for (int k = 0; k < kJoints; ++k) d.pixels.col(k) = camera.project(Vec3(right + pose(0, k), 1.0 - pose(2, k), depth));
+  return d;
+}
+
+TEST(Sights, KnowWhatSomebodyInFrontHides) {
+  const View view = view_of({1000, 1000, 960, 540, 1920, 1080}, {});
+  const auto behind = [&](double right, double depth, double confidence, bool hips = true) {
+    Take take;
+    take.camera = view.camera;
+    take.detections = {upright(view.camera, 0, 5, 0), upright(view.camera, right, depth, 1)};
+    take.detections[0].confidence[left_wrist] = confidence;
+    if (!hips) take.detections[1].confidence[right_hip] = 0;
+    return sights_of(take, 0, view).front().behind_others;
+  };
+  const auto count = [](const auto& which) { return std::count(which.begin(), which.end(), true); };
+  EXPECT_TRUE(behind(0, 3, 0.2)[left_wrist]);
+  EXPECT_EQ(count(behind(0, 3, 0.2)), 1) << "the others are seen";
+  EXPECT_EQ(count(behind(0, 3, 0.9)), 0) << "seen";
+  EXPECT_EQ(count(behind(0, 3, 0)), 0) << "nobody knows where it is";
+  EXPECT_EQ(count(behind(0, 7, 0.2)), 0) << "the other is farther away";
+  EXPECT_EQ(count(behind(1.2, 3, 0.2)), 0) << "the other stands beside";
+  EXPECT_EQ(count(behind(0, 3, 0.2, false)), 0) << "nobody knows how far away the other is";
+}
+
+/// Whose joints in the picture are nearest.
+int who(const SynthTake& synth, const Detection& d) {
+  const View view = test::true_view(synth);
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t p = 0; p < synth.truth.people.size(); ++p) {
+    const Pose& pose = synth.truth.people[p][static_cast<std::size_t>(d.frame)].pose;
+    double off = 0;
+    for (int k = 0; k < kJoints; ++k)
+      if (d.confidence[k] > 0) off += (view.project(pose.col(k)) - d.pixels.col(k)).norm();
+    if (off >= least) continue;
+    least = off;
+    nearest = static_cast<int>(p);
+  }
+  return nearest;
+}
+
+TEST(Sights, BlameOthersForWhatIsHidden) {
+  int blamed = 0, hidden = 0;
+  for (const int seed : {2111, 2112, 2113}) {
+    const SynthTake synth = simulate(test::synth_options(seed, 20, 4));
+    Take take = synth.take;
+    for (Detection& d : take.detections) d.person = who(synth, d);
+    for (std::size_t person = 0; person < synth.truth.people.size(); ++person)
+      for (const Sight& sight : sights_of(take, static_cast<int>(person), test::true_view(synth)))
+        for (std::size_t k = 0; k < kJoints; ++k) {
+          blamed += sight.behind_others[k];
+          hidden += sight.behind_others[k] && synth.truth.people[person][static_cast<std::size_t>(sight.frame)].occluded[k];
+        }
+  }
+  EXPECT_GT(blamed, 100);
+  EXPECT_GT(hidden, 0.95 * blamed);
+}
+
 TEST(ViewOfGround, TiltsTheCameraAsAnglesSay) {
   Ground ground;
   ground.camera_height = 1.4;
