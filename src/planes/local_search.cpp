@@ -371,7 +371,7 @@ Labels solve_local(const SelectionProblem& problem, const Context& context, cons
   if (!small) return best.labels;
   Random random(1);
   for (int shake = 0; shake < kShakes; ++shake) {
-    starts.clear();
+    std::vector<std::vector<int>> shaken;
     for (int i = 0; i < kStartsOfShake; ++i) {
       std::vector<int> open = fixed;
       for (const int k : best.open)
@@ -380,9 +380,9 @@ Labels solve_local(const SelectionProblem& problem, const Context& context, cons
         const int k = static_cast<int>(random.index(problem.frames()));
         if (std::find(open.begin(), open.end(), k) == open.end()) open.push_back(k);
       }
-      starts.push_back(std::move(open));
+      shaken.push_back(std::move(open));
     }
-    attempt(starts);
+    attempt(std::move(shaken));
   }
   return search.improve(search.all_subsets(best)).labels;
 }

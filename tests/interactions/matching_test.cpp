@@ -75,7 +75,7 @@ Detection upright(const Camera& camera, double right, double depth, int person) 
   Detection d;
   d.person = person;
   d.confidence.setConstant(0.9);
-  const Pose pose = test::simple_pose(0);
+  const Pose pose = simple_pose(0);
   for (int k = 0; k < kJoints; ++k) d.pixels.col(k) = camera.project(Vec3(right + pose(0, k), 1.0 - pose(2, k), depth));
   return d;
 }
