@@ -140,9 +140,11 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
       orientation_of[k].push_back(static_cast<int>(it - orientations.begin()));
       if (it == orientations.end()) orientations.push_back(n);
     }
-  p.data.leftCols(old) = known.data;
-  p.orientation.leftCols(old) = known.orientation;
-  p.irregularity.topLeftCorner(old, old) = known.irregularity;
+  if (old > 0) {  // empty matrices do not fit, not even into nothing
+    p.data.leftCols(old) = known.data;
+    p.orientation.leftCols(old) = known.orientation;
+    p.irregularity.topLeftCorner(old, old) = known.irregularity;
+  }
   parallel_blocks(context, cols - old, 8, [&](std::size_t begin, std::size_t end) {
     for (int k = old + static_cast<int>(begin); k < old + static_cast<int>(end); ++k) {
       for (int j = 0; j < rows; ++j) {
