@@ -149,17 +149,16 @@ TEST(Synth, UsedObjectsAreTouchedAndOthersAreNotSatOn) {
     const Recording truth = take_of(seed, 1 + seed % 2).truth;
     const std::set<int> used(truth.interacted.begin(), truth.interacted.end());
     for (const Object& object : truth.objects) {
-      double touch = 1e9;  // of what still is one
+      double touch = 1e9;
       bool sat = false;
       for (const auto& frames : truth.people)
         for (const RecordedFrame& f : frames)
           for (const Part& part : object.parts) {
-            for (const Joint j : {right_wrist, left_wrist}) touch = std::min(touch, distance_to(part.box, f.pose.col(j)) / 0.12);
-            touch = std::min(touch, distance_to(part.box, f.pose.col(pelvis)) / 0.15);
+            for (const Joint j : {pelvis, right_wrist, left_wrist}) touch = std::min(touch, distance_to(part.box, f.pose.col(j)));
             sat = sat || ((f.action == Action::sit || f.action == Action::lie) && part.name == "seat" && distance_to(part.box, f.pose.col(pelvis)) < 0.15);
           }
       if (used.count(object.id) > 0)
-        EXPECT_LT(touch, 1.08) << object.category << ", seed " << seed;
+        EXPECT_LT(touch, 0.13) << object.category << ", seed " << seed;
       else
         EXPECT_FALSE(sat) << object.category << ", seed " << seed;
     }
