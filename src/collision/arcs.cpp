@@ -51,7 +51,7 @@ class Grower {
     if (static_cast<double>(points_.size()) < std::max(3.0, kFilled * (2 * step + 1))) return {};
     extend(first + 2 * step + 1, 1);
     extend(first - 1, -1);
-    if (jitter_ > 0.0 && points_.size() > kSmoothest) grow_again();
+    if (points_.size() > kSmoothest) grow_again();
     if (points_.size() < kFewest) return {};
     Arc arc;
     for (const auto& [frame, point] : points_) arc.points.push_back(point);
@@ -81,7 +81,7 @@ class Grower {
     }
   }
 
-  /// Grows again from the smoothest stretch: the seed may have had the moment of a push in its middle.
+  /// Grows again from the smoothest stretch: the seed may have had the moment of a push, or of two bodies seen as one, in its middle.
   void grow_again() {
     const std::vector<std::pair<int, Candidate>> all(points_.begin(), points_.end());
     const auto fit = [&](std::size_t begin) {

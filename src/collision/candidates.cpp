@@ -73,7 +73,7 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
       c.area = disc ? 0.25 * kPi * disc->diameter * disc->diameter : r.area;
       c.color = r.color;
       c.colored = true;
-      c.whole = !r.at_border;
+      c.whole = !r.at_border && (!r.covered || disc);
       c.shadow = r.shadow;
       c.region = static_cast<int>(i);
       candidates[k].push_back(c);

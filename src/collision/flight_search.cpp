@@ -12,7 +12,6 @@ namespace unseen::collision {
 namespace {
 
 constexpr std::size_t kFewest = 4;   // sightings of a flight
-constexpr double kCap = 4.5;         // ½ χ² of a sighting that is off
 constexpr double kExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
 
 double median(std::vector<double> values) {
@@ -103,7 +102,7 @@ class Flights {
       const int body = seen.front().body >= 0 ? seen.front().body : 0;
       const std::optional<LinearFlight> flight = linear_flight(problem, body, meeting.time);
       if (!flight) return std::nullopt;
-      sum += off(problem, *flight, body, meeting.time);
+      sum += misfit(problem, *flight, body, meeting.time);
       impulses.push_back(flight->v_after - flight->v_before);
     }
     constexpr double kOpposed = 5.0;  // momentum goes from one body to the other
@@ -112,18 +111,6 @@ class Flights {
   }
 
  private:
-  static double off(const Problem& problem, const LinearFlight& flight, int body, double time) {
-    double sum = 0.0;
-    for (const PointObservation& seen : problem.points) {
-      if (seen.body != body) continue;
-      const double tau = seen.time - time;
-      const Vec3 p = flight.p + tau * (seen.after ? flight.v_after : flight.v_before) + 0.5 * tau * tau * problem.gravity * problem.down;
-      const double square = p.z() > 0.0 ? (problem.camera.project(p) - seen.pixel).squaredNorm() / (problem.pixel_sigma * problem.pixel_sigma) : 2.0 * kCap;
-      sum += std::min(0.5 * square, kCap);
-    }
-    return sum;
-  }
-
   Shot shot_;
   const ShotCamera& camera_;
   std::array<Solid, 2> solids_;
@@ -186,7 +173,7 @@ std::optional<Tracks> search_chain(const Shot& shot, const ShotCamera& camera, c
   std::vector<std::size_t> from(seen.size() + 1, 0);
   for (std::size_t j = 1; j <= seen.size(); ++j) {
     context.check();
-    least[j] = least[j - 1] + kCap;
+    least[j] = least[j - 1] + kMostMisfit;
     from[j] = j - 1;
     for (std::size_t i = 0; i + kFewest <= j; ++i) {
       const std::optional<double> cost = flights.cost({seen}, i, j, std::nullopt, fps);

@@ -21,9 +21,9 @@ int only_free_body(const Shot& shot) {
   return shot.bodies.size() < 2 ? 0 : -1;
 }
 
-Tracks label(const Shot& shot, Candidates candidates, double fps, double least_noise, Context& context) {
+Tracks label(const Shot& shot, const ShotCamera& camera, Candidates candidates, double fps, double least_noise, Context& context) {
   const int body = only_free_body(shot);
-  if (body < 0) return find_pair(shot, candidates, fps, least_noise, context);
+  if (body < 0) return find_pair(shot, camera, candidates, fps, least_noise, context);
   for (auto& frame : candidates) std::erase_if(frame, [&](const Candidate& c) { return c.body >= 0 && c.body != body; });
   return find_chain(shot, candidates, body, fps, least_noise, context);
 }
@@ -34,7 +34,7 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const Footage& fo
   const bool spheres = std::all_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& b) {
     return b.shape == Shape::sphere || b.shape == Shape::fixed;
   });
-  Tracks tracks = label(shot, candidates_of(footage, camera, spheres), footage.fps, kLeastRegionNoise, context);
+  Tracks tracks = label(shot, camera, candidates_of(footage, camera, spheres), footage.fps, kLeastRegionNoise, context);
   if (only_free_body(shot) < 0) label_by_shape(shot, camera, footage, tracks);
   return tracks;
 }
@@ -44,9 +44,9 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector
   const int body = only_free_body(shot);
   if (body < 0) {
     if (std::optional<Tracks> tracks = search_pair(shot, camera, candidates, fps, kLeastSightingNoise, context)) return *tracks;
-    return label(shot, candidates, fps, kLeastSightingNoise, context);
+    return label(shot, camera, candidates, fps, kLeastSightingNoise, context);
   }
-  Tracks tracks = label(shot, candidates, fps, kLeastSightingNoise, context);
+  Tracks tracks = label(shot, camera, candidates, fps, kLeastSightingNoise, context);
   if (tracks.meetings.empty())
     if (std::optional<Tracks> found = search_chain(shot, camera, candidates, body, fps, kLeastSightingNoise, context)) return *found;
   return tracks;

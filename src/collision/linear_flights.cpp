@@ -81,4 +81,16 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
   return LinearFlight{solution.segment<3>(0), solution.segment<3>(3), solution.segment<3>(6), system.normal, system.right};
 }
 
+double misfit(const Problem& problem, const LinearFlight& flight, int body, double time) {
+  double sum = 0.0;
+  for (const PointObservation& seen : problem.points) {
+    if (seen.body != body) continue;
+    const double tau = seen.time - time;
+    const Vec3 p = flight.p + tau * (seen.after ? flight.v_after : flight.v_before) + 0.5 * tau * tau * problem.gravity * problem.down;
+    const double square = p.z() > 0.0 ? (problem.camera.project(p) - seen.pixel).squaredNorm() / (problem.pixel_sigma * problem.pixel_sigma) : 2.0 * kMostMisfit;
+    sum += std::min(0.5 * square, kMostMisfit);
+  }
+  return sum;
+}
+
 }  // namespace unseen::collision

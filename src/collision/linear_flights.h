@@ -21,4 +21,9 @@ struct LinearFlight {
 /// reweighting. Nothing if the points do not determine it.
 std::optional<LinearFlight> linear_flight(const Problem& problem, int body, double time);
 
+constexpr double kMostMisfit = 4.5;  ///< ½ χ² of a sighting that is off
+
+/// ½ χ² of a body's sightings about its flight with an impact at `time`; each counts for at most kMostMisfit.
+double misfit(const Problem& problem, const LinearFlight& flight, int body, double time);
+
 }  // namespace unseen::collision

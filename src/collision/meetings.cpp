@@ -8,8 +8,6 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kBeyond = 0.75;     // frame times that the joint may lie within the flights
-constexpr int kSteps = 400;
 constexpr double kReach = 4.0;       // σ
 constexpr double kOfBody = 0.25;     // diameters: deformation, blur, shadow
 constexpr double kSudden = 6.0;      // σ of the velocities
@@ -47,32 +45,23 @@ Curve curve_near_begin(const std::vector<Candidate>& points, double noise) {
   return near_curve(points.size(), [&](std::size_t i) -> const Candidate& { return points[i]; }, noise);
 }
 
-Joint join(const Curve& before, double end, const Curve& after, double begin, double noise, double diameter) {
+Joint joint_at(double u, const Curve& before, const Curve& after, double noise, double diameter) {
   Joint joint;
-  const double low = std::min(end, begin) - kBeyond, high = std::max(end, begin) + kBeyond;
-  double least = 1e300;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double u = low + (high - low) * i / kSteps, d = (before.at(u) - after.at(u)).norm();
-    if (d < least) {
-      least = d;
-      joint.u = u;
-    }
-  }
-  double step = (high - low) / kSteps;
-  for (int round = 0; round < 20; ++round, step *= 0.5)
-    for (const double u : {joint.u - step, joint.u + step})
-      if (const double d = (before.at(u) - after.at(u)).norm(); d < least && u >= low && u <= high) {
-        least = d;
-        joint.u = u;
-      }
-  joint.apart = least;
-  const double spread = before.variance_at(joint.u) + after.variance_at(joint.u);
-  joint.tolerance = std::min(kReach * noise * std::sqrt(1.0 + spread) + kOfBody * diameter, std::max(diameter, 10.0 * noise));
-  joint.change = after.velocity_at(joint.u) - before.velocity_at(joint.u);
-  const double faster = std::max(after.velocity_at(joint.u).norm(), before.velocity_at(joint.u).norm());
-  const double sigma = noise * std::sqrt(before.velocity_variance_at(joint.u) + after.velocity_variance_at(joint.u));
+  joint.u = u;
+  joint.apart = (before.at(u) - after.at(u)).norm();
+  joint.spread = noise * std::sqrt(1.0 + before.variance_at(u) + after.variance_at(u));
+  joint.tolerance = std::min(kReach * joint.spread + kOfBody * diameter, std::max(diameter, 10.0 * noise));
+  joint.change = after.velocity_at(u) - before.velocity_at(u);
+  const double faster = std::max(after.velocity_at(u).norm(), before.velocity_at(u).norm());
+  const double sigma = noise * std::sqrt(before.velocity_variance_at(u) + after.velocity_variance_at(u));
   joint.sudden = joint.change.norm() > std::max(kSudden * sigma, kLeastChange * faster);
   return joint;
+}
+
+Joint join(const Curve& before, double end, const Curve& after, double begin, double noise, double diameter) {
+  const double low = std::min(end, begin) - kBeyond, high = std::max(end, begin) + kBeyond;
+  const double u = least_between(low, high, [&](double at) { return (before.at(at) - after.at(at)).norm(); });
+  return joint_at(u, before, after, noise, diameter);
 }
 
 bool rebounds(const Curve& before, const Curve& after, const Joint& joint) {

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "collision/background.h"
+#include "collision/covered.h"
 #include "collision/foreground.h"
 #include "collision/hygiene.h"
 #include "collision/stabilise.h"
@@ -202,6 +203,7 @@ Footage find_regions(const Shot& shot, Context& context) {
   if (repeats > 0) context.warn(fmt::format("{}: {} frames repeat the one before; they are left out", shot.video, repeats));
   const Background background = find_background(registered(survey, footage), context);
   second_pass(shot, survey, background, footage, context);
+  mark_covered(background, survey.view.tl(), survey.scale, footage, context);
   return footage;
 }
 

@@ -22,6 +22,7 @@ struct Region {
   cv::Mat mask;           ///< 8 bit, of `box`
   Vec3 color = Vec3::Zero();  ///< mean sRGB, 0…255
   bool at_border = false;     ///< cut by the picture's (or the roi's) edge
+  bool covered = false;       ///< cut by something before the scene
   bool shadow = false;        ///< all of it could be the background with less light
 };
 

@@ -89,7 +89,7 @@ SynthShot simulate(const SynthOptions& options) {
   for (int draw = 0; draw < kDraws; ++draw) {
     const SynthPlan plan = draw_plan(options, random);
     Truth& truth = result.truth;
-    if (!carry_out(plan, options, truth) || !well_seen(plan, truth)) continue;
+    if (!carry_out(plan, options, truth) || !well_seen(plan, options, truth)) continue;
     truth.scene = options.scene;
     truth.T_world_camera = plan.T_world_camera;
     truth.camera = plan.camera;

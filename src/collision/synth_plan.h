@@ -39,8 +39,12 @@ SynthPlan draw_plan(const SynthOptions& options, Random& random);
 /// through each other, or if the shot is not what the plan asks for.
 bool carry_out(const SynthPlan& plan, const SynthOptions& options, Truth& truth);
 
-/// Whether the bodies are seen well: in the picture for most of the time about the first impact, and apart on both sides of it.
-bool well_seen(const SynthPlan& plan, const Truth& truth);
+/// Columns of the picture, from the first to before the last, that a curtain takes which hides an impact at `contact` (camera coordinates).
+std::array<int, 2> curtain_columns(const std::vector<SynthMover>& movers, const Vec3& contact, const Camera& camera);
+
+/// Whether the bodies are seen well: in the picture for most of the time about the first impact, apart on both sides of it, and each for
+/// some time beside the curtain if there is one.
+bool well_seen(const SynthPlan& plan, const SynthOptions& options, const Truth& truth);
 
 /// Sightings (pixel: projected centre of mass; radius: that of a disc with the silhouette's area) and orientations, with noise.
 void observe(const Truth& truth, const SynthOptions& options, Shot& shot);

@@ -7,6 +7,7 @@
 
 #include "collision/synth_look.h"
 #include "collision/synth_motion.h"
+#include "collision/synth_plan.h"
 #include "unseen/collision/synth.h"
 
 namespace unseen::collision {
@@ -131,11 +132,8 @@ class Film {
   void hang_curtain() {
     if (!options_.curtain || scene_.truth.impacts.empty()) return;
     const Vec3 p = scene_.truth.T_world_camera.inverse() * scene_.truth.impacts.front().contact_point;
-    double reach = 0;
-    for (const SynthMover& m : movers_) reach = std::max(reach, m.body.reach);
-    const double half = 1.2 * camera_.fx * reach / p.z(), middle = camera_.project(p).x();
-    curtain_ = {std::clamp(static_cast<int>(middle - half), 0, camera_.width), 0,
-                std::clamp(static_cast<int>(middle + half), 0, camera_.width), camera_.height};
+    const auto [left, right] = curtain_columns(movers_, p, camera_);
+    curtain_ = {left, 0, right, camera_.height};
     for (int v = 0; v < camera_.height; ++v)
       for (int u = curtain_.left; u < curtain_.right; ++u)
         backdrop_.colors[static_cast<std::size_t>(v) * camera_.width + u] = (0.5 + 0.2 * std::sin(0.15 * u)) * Vec3(0.25, 0.3, 0.22);

@@ -11,6 +11,8 @@ namespace {
 constexpr int kOutline = 64;           // corners of a ball's outline
 constexpr double kWatched = 0.35;      // s on each side of the impact that must be seen well
 constexpr double kInside = 0.75, kApart = 0.4;  // shares of the frames there
+constexpr double kBeside = 0.08;       // s there that each body is seen whole beside a curtain
+constexpr double kCurtain = 1.2;       // half its width, of the larger body's reach
 
 /// A circle of directions that touch a ball, as seen from the origin, in camera coordinates.
 std::vector<Vec2> ball_outline(double radius, const Vec3& center, const Camera& camera) {
@@ -87,10 +89,20 @@ std::vector<Vec2> silhouette(const SynthBody& body, const SynthPose& pose, const
   return outline;
 }
 
-bool well_seen(const SynthPlan& plan, const Truth& truth) {
+std::array<int, 2> curtain_columns(const std::vector<SynthMover>& movers, const Vec3& contact, const Camera& camera) {
+  double reach = 0;
+  for (const SynthMover& m : movers) reach = std::max(reach, m.body.reach);
+  const double half = kCurtain * camera.fx * reach / contact.z(), middle = camera.project(contact).x();
+  const auto column = [&](double u) { return std::clamp(static_cast<int>(u), 0, camera.width); };
+  return {column(middle - half), column(middle + half)};
+}
+
+bool well_seen(const SynthPlan& plan, const SynthOptions& options, const Truth& truth) {
   if (!plan.watched) return true;
   const RigidTransform T = plan.T_world_camera.inverse();
-  int frames[2] = {}, inside[2] = {}, apart[2] = {};
+  const bool curtain = options.curtain && !truth.impacts.empty();
+  const auto [left, right] = curtain ? curtain_columns(plan.movers, T * truth.impacts.front().contact_point, plan.camera) : std::array{0, 0};
+  int frames[2] = {}, inside[2] = {}, apart[2] = {}, beside[2][2] = {};
   for (const FramePose& f : truth.frames) {
     if (std::abs(f.time - plan.time) > kWatched) continue;
     const int side = f.time < plan.time ? 0 : 1;
@@ -98,8 +110,10 @@ bool well_seen(const SynthPlan& plan, const Truth& truth) {
     double reach = 0;
     for (std::size_t i = 0; i < plan.movers.size(); ++i) {
       const Vec3 p = T * f.bodies[i]->p;
-      const double radius = plan.camera.fx * plan.movers[i].body.reach / p.z();
-      all = all && p.z() > 0.8 && in_picture(plan.camera.project(p), radius, plan.camera);
+      const double radius = plan.camera.fx * plan.movers[i].body.reach / p.z(), u = plan.camera.project(p).x();
+      const bool whole = p.z() > 0.8 && in_picture(plan.camera.project(p), radius, plan.camera);
+      all = all && whole;
+      beside[side][i] += whole && (u + radius < left || u - radius > right);
       reach += radius;
     }
     ++frames[side];
@@ -107,8 +121,11 @@ bool well_seen(const SynthPlan& plan, const Truth& truth) {
     const bool two = plan.movers.size() == 2;
     apart[side] += !two || (plan.camera.project(T * f.bodies[0]->p) - plan.camera.project(T * f.bodies[1]->p)).norm() > reach;
   }
-  for (int side = 0; side < 2; ++side)
+  for (int side = 0; side < 2; ++side) {
     if (frames[side] == 0 || inside[side] < kInside * frames[side] || apart[side] < kApart * frames[side]) return false;
+    for (std::size_t i = 0; curtain && i < plan.movers.size(); ++i)
+      if (beside[side][i] < kBeside * options.fps) return false;
+  }
   return true;
 }
 

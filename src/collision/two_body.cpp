@@ -7,107 +7,22 @@
 #include <cmath>
 
 #include "collision/arcs.h"
-#include "collision/mass_properties.h"
 #include "collision/meetings.h"
+#include "collision/pair_links.h"
 
 namespace unseen::collision {
 namespace {
 
-constexpr double kLongestGap = 0.2;    // s between two flights of one body, and
-constexpr double kLongestFrames = 6.5;  // frame times at least
-constexpr double kSameTime = 2.5;      // frame times between the two bodies' joints, beside what their spread explains
-constexpr double kTouch = 0.85;        // of the sum of the diameters that the centres may be apart at the impact
-constexpr double kUnlike = 15.9;       // σ² between the looks before and after: bodies turn, and show other sides
-constexpr double kOpposed = -0.5;      // cosine between the two changes of velocity: momentum goes from one to the other
-constexpr double kOneCollision = 4.0;  // frame times between two collisions
+constexpr double kUnlike = 15.9;       // σ² between the looks of two pieces of a flight
+constexpr double kSameTime = 2.5;      // frame times that the impact may move when its flights are settled
 constexpr std::size_t kMostArcs = 60;
 constexpr double kGate = 3.5;          // σ, of points that are assigned to a flight
-constexpr double kSizesDiffer = 0.12;  // of the logarithm of the size ratio
 constexpr double kOverlap = 3.0;       // frame times that two pieces of one flight may share
 constexpr double kAstray = 0.5;        // diameters that the second may begin off where the first leads
 constexpr double kOneFlight = 1.2;     // times the noise, about one parabola through both
 constexpr std::size_t kAbout = 8;      // points to either side that tell the usual size
 constexpr double kOddSize = 0.03, kOddSigmas = 6.0;  // of the logarithm of the size, or σ of its spread
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
-
-/// One body's flights before and after, by index of arc.
-struct Link {
-  std::size_t before, after;
-  Joint joint;
-  double diameter = 0;
-  double unlike = 0;  ///< σ², before and after
-};
-
-struct Collision {
-  Link a, b;
-  double u = 0, score = 0;
-};
-
-Candidate looks_of(const Arc& arc) {
-  Candidate mean = arc.points[arc.points.size() / 2];
-  mean.color.setZero();
-  for (const Candidate& c : arc.points) mean.color += c.color / static_cast<double>(arc.points.size());
-  mean.diameter = typical_diameter(arc.points);
-  return mean;
-}
-
-/// Pairs of arcs that can be one body's flights before and after an impact.
-std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double fps) {
-  const double gap = std::max(kLongestFrames, kLongestGap * fps);
-  std::vector<Candidate> looks;
-  for (const Arc& arc : arcs) looks.push_back(looks_of(arc));
-  std::vector<Link> links;
-  for (std::size_t i = 0; i < arcs.size(); ++i)
-    for (std::size_t j = 0; j < arcs.size(); ++j) {
-      if (i == j || arcs[j].begin() - arcs[i].end() > gap || arcs[j].begin() < arcs[i].begin() + 2.0 || arcs[j].end() < arcs[i].end() + 2.0) continue;
-      if (arcs[i].end() - arcs[j].begin() > 4.0 || unlikeness(looks[i], looks[j]) > kUnlike) continue;
-      const double diameter = std::max(looks[i].diameter, looks[j].diameter);
-      const Joint joint = join(arcs[i].curve, arcs[i].end(), arcs[j].curve, arcs[j].begin(), noise, diameter);
-      if (joint.apart < joint.tolerance && joint.sudden) links.push_back({i, j, joint, diameter, unlikeness(looks[i], looks[j])});
-    }
-  return links;
-}
-
-/// When both bodies are nearest to their joints: the time that the noise of each leaves most likely.
-double common_time(const Link& a, const Link& b) {
-  const double wa = a.joint.change.squaredNorm(), wb = b.joint.change.squaredNorm();  // the sharper the bend, the better its time
-  return (wa * a.joint.u + wb * b.joint.u) / (wa + wb);
-}
-
-/// All pairs of links that make a collision of two bodies, best first.
-std::vector<Collision> collisions_of(const std::vector<Arc>& arcs, const std::vector<Link>& links, double noise) {
-  std::vector<Collision> found;
-  for (std::size_t i = 0; i < links.size(); ++i)
-    for (std::size_t j = i + 1; j < links.size(); ++j) {
-      const Link &a = links[i], &b = links[j];
-      if (a.before == b.before || a.after == b.after || a.before == b.after || a.after == b.before) continue;
-      const double slack = kSameTime + std::min(6.0, 4.0 * noise * (1.0 / a.joint.change.norm() + 1.0 / b.joint.change.norm()));
-      if (std::abs(a.joint.u - b.joint.u) > slack) continue;
-      const double u = common_time(a, b);
-      const Vec2 pa = 0.5 * (arcs[a.before].curve.at(u) + arcs[a.after].curve.at(u)), pb = 0.5 * (arcs[b.before].curve.at(u) + arcs[b.after].curve.at(u));
-      const double reach = 0.5 * (a.diameter + b.diameter);
-      if (reach > 0.0 && (pa - pb).norm() > kTouch * (a.diameter + b.diameter) + 4.0 * noise) continue;
-      const double opposed = a.joint.change.dot(b.joint.change) / (a.joint.change.norm() * b.joint.change.norm());
-      if (opposed > kOpposed) continue;
-      double score = -20.0 * opposed - (a.joint.apart + b.joint.apart) / noise - 4.0 * std::abs(a.joint.u - b.joint.u) - a.unlike - b.unlike;
-      for (const std::size_t k : {a.before, a.after, b.before, b.after}) score += std::min<double>(30.0, static_cast<double>(arcs[k].points.size()));
-      found.push_back({a, b, u, score});
-    }
-  std::stable_sort(found.begin(), found.end(), [](const Collision& x, const Collision& y) { return x.score > y.score; });
-  return found;
-}
-
-std::array<std::size_t, 4> pieces_of(const Collision& c) { return {c.a.before, c.b.before, c.a.after, c.b.after}; }
-
-/// Collisions at clearly different times; on one side at least, another has flights of its own, of arcs that the first one has not `used`.
-int count_collisions(const std::vector<Collision>& found, const std::vector<char>& used) {
-  std::vector<double> times = {found.front().u};
-  for (const Collision& c : found) {
-    if ((used[c.a.before] || used[c.b.before]) && (used[c.a.after] || used[c.b.after])) continue;
-    if (std::none_of(times.begin(), times.end(), [&](double u) { return std::abs(u - c.u) < kOneCollision; })) times.push_back(c.u);
-  }
-  return static_cast<int>(times.size());
-}
 
 /// The arc with those points of another that are outside its time.
 Arc with(const Arc& arc, const Arc& other) {
@@ -139,7 +54,7 @@ double continues(const Arc& arc, const Arc& other, double noise) {
 /// are `used`.
 std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collision, double noise, std::vector<char>& used) {
   std::vector<Arc> flights;
-  for (const std::size_t i : pieces_of(collision)) flights.push_back(arcs[i]), used[i] = 1;
+  for (const std::size_t i : collision.arcs()) flights.push_back(arcs[i]), used[i] = 1;
   while (true) {
     double best = kGate;
     std::size_t flight = 0, piece = arcs.size();
@@ -192,25 +107,6 @@ std::vector<Candidate> reassign(const Candidates& candidates, const Arc& arc, do
     if (best) points.push_back(*best);
   }
   return without_odd_sizes(points.size() >= 3 ? points : arc.points);
-}
-
-/// True if the first of the two is the second of the shot's bodies: by labels, by size, else as found.
-bool swapped(const Shot& shot, const std::vector<Candidate>& first, const std::vector<Candidate>& second) {
-  int votes = 0;
-  for (const Candidate& c : first) votes += c.body == 1 ? 1 : c.body == 0 ? -1 : 0;
-  for (const Candidate& c : second) votes += c.body == 0 ? 1 : c.body == 1 ? -1 : 0;
-  if (votes != 0) return votes > 0;
-  const double a = mass_properties(shot.bodies[0], shot.name).extent, b = mass_properties(shot.bodies[1], shot.name).extent;
-  const double da = typical_diameter(first), db = typical_diameter(second);
-  if (a > 0.0 && b > 0.0 && da > 0.0 && db > 0.0 && std::abs(std::log(a / b)) > kSizesDiffer) return (std::log(a / b) > 0.0) != (std::log(da / db) > 0.0);
-  const Candidate &f = first.front(), &s = second.front();
-  return f.u != s.u ? f.u > s.u : f.pixel.x() > s.pixel.x();
-}
-
-std::vector<Candidate> joined(const std::vector<Candidate>& a, const std::vector<Candidate>& b) {
-  std::vector<Candidate> all = a;
-  all.insert(all.end(), b.begin(), b.end());
-  return all;
 }
 
 Curve curve_of(const std::vector<Candidate>& points) {
@@ -269,11 +165,9 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
   Tracks tracks;
   for (std::size_t i = 0; i < 4; ++i) add_span(tracks, static_cast<int>(i % 2), flights[i], fps);
   finish(candidates, flights, tracks);
-  Link links[2];
-  for (std::size_t o = 0; o < 2; ++o)
-    links[o].joint = join(curve_of(flights[o]), flights[o].back().u, curve_of(flights[o + 2]), flights[o + 2].front().u, noise, 0.0);
-  double u = common_time(links[0], links[1]);
-  if (std::abs(u - best.u) > kSameTime) u = best.u;
+  const auto link = [&](std::size_t o) { return link_of({flights[o], {}, 0}, {flights[o + 2], {}, 0}, noise); };
+  double u = common_time(link(0), link(1), noise);
+  if (!(std::abs(u - best.u) < kSameTime)) u = best.u;
   tracks.meetings.push_back({u / fps, {0, 1}, {2, 3}});
   tracks.collisions_seen = count_collisions(found, used);
   return tracks;
@@ -281,11 +175,11 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
 
 }  // namespace
 
-Tracks find_pair(const Shot& shot, const Candidates& candidates, double fps, double least_noise, Context& context) {
+Tracks find_pair(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, double fps, double least_noise, Context& context) {
   const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
   std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
-  const std::vector<Collision> found = collisions_of(arcs, links_of(arcs, noise, fps), noise);
+  const std::vector<Collision> found = find_collisions(shot, camera, arcs, noise, fps);
   if (found.empty()) return without_collision(shot, candidates, arcs, fps);
   return with_collision(shot, candidates, arcs, found, noise, fps);
 }

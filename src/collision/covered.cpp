@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/covered.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kAcross = 3.0;       // px from the outline, inwards and outwards, where its two sides are compared
+constexpr int kFewestFrames = 6;      // that something moves at the inner side, and
+constexpr double kNever = 0.05;       // the share of them in which it does at the outer
+constexpr double kEdge = 18.0;        // grey levels between the background's two sides
+constexpr double kOnEdge = 0.7;       // share of the outline beyond which nothing moves that lies on such an edge
+constexpr double kLeastChord = 0.25;  // of the bounding circle's diameter: less hides next to nothing
+constexpr double kStraight = 1.0;     // px, standard deviation about a line
+constexpr double kSmallest = 25.0;    // px, of the bounding circle: too small to tell
+
+/// How often each pixel of a decoded frame is moving, in frames.
+cv::Mat count_movers(const Footage& footage) {
+  cv::Mat count = cv::Mat::zeros(footage.height, footage.width, CV_16U);
+  for (const auto& frame : footage.regions)
+    for (const Region& r : frame)
+      if (!r.shadow) cv::add(count(r.box), 1, count(r.box), r.mask);
+  return count;
+}
+
+/// Standard deviation of points about their line.
+double width_of(const std::vector<Vec2>& points) {
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& p : points) mean += p / static_cast<double>(points.size());
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const Vec2& p : points) spread += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
+  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues()[0]));
+}
+
+struct OutlinePoint {
+  Vec2 inner, outer;  ///< on both sides of it, decoded pixels
+};
+
+std::vector<OutlinePoint> outline_of(const Region& region) {
+  constexpr int kMargin = 4;
+  cv::Mat padded, smooth, dx, dy;
+  cv::copyMakeBorder(region.mask, padded, kMargin, kMargin, kMargin, kMargin, cv::BORDER_CONSTANT, cv::Scalar(0));
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(padded, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  cv::GaussianBlur(padded, smooth, {7, 7}, 0);
+  cv::Sobel(smooth, dx, CV_32F, 1, 0);
+  cv::Sobel(smooth, dy, CV_32F, 0, 1);
+  std::vector<OutlinePoint> points;
+  for (const auto& outline : outlines)
+    for (const cv::Point& p : outline) {
+      const Vec2 inwards(dx.at<float>(p), dy.at<float>(p));
+      if (inwards.norm() < 1e-3) continue;
+      const Vec2 at(p.x - kMargin + region.box.x, p.y - kMargin + region.box.y), step = kAcross * inwards.normalized();
+      points.push_back({at + step, at - step});
+    }
+  return points;
+}
+
+cv::Point pixel_of(const Vec2& p) { return {static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y()))}; }
+
+/// Whether the background differs between two of its pixels.
+bool differs(const cv::Mat& picture, cv::Point a, cv::Point b) {
+  const cv::Vec3b &x = picture.at<cv::Vec3b>(a), &y = picture.at<cv::Vec3b>(b);
+  int most = 0;
+  for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(x[c] - y[c]));
+  return most >= kEdge;
+}
+
+}  // namespace
+
+void mark_covered(const Background& background, cv::Point corner, int scale, Footage& footage, const Context& context) {
+  if (!footage.shift.empty()) return;
+  const cv::Mat count = count_movers(footage);
+  const cv::Rect frame({0, 0}, count.size()), view({0, 0}, background.picture.size());
+  const auto in_background = [&](const Vec2& p) { return pixel_of((p - Vec2(corner.x, corner.y)) / scale - Vec2::Constant(0.5 - 0.5 / scale)); };
+  const auto covered = [&](const Region& region) {
+    double beyond = 0;
+    std::vector<Vec2> on_edge;
+    for (const OutlinePoint& p : outline_of(region)) {
+      const cv::Point inner = pixel_of(p.inner), outer = pixel_of(p.outer), behind = in_background(p.inner), before = in_background(p.outer);
+      if (!frame.contains(inner) || !frame.contains(outer) || !view.contains(behind) || !view.contains(before)) continue;
+      const double moving = count.at<unsigned short>(inner);
+      if (moving < kFewestFrames || count.at<unsigned short>(outer) > kNever * moving) continue;
+      ++beyond;
+      if (differs(background.picture, behind, before)) on_edge.push_back(p.inner);
+    }
+    const auto length = static_cast<double>(on_edge.size());
+    return length > kOnEdge * beyond && length > kLeastChord * region.circle && width_of(on_edge) < kStraight;
+  };
+  parallel_blocks(context, footage.regions.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (Region& region : footage.regions[k])
+        if (!region.shadow && region.circle >= kSmallest) region.covered = covered(region);
+  });
+}
+
+}  // namespace unseen::collision
