@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "collision/color_sight.h"
 #include "unseen/collision/body_mesh.h"
@@ -11,7 +12,6 @@
 
 namespace unseen::collision {
 namespace {
-
 
 /// Sums for a least-squares fit of lights to colours about each place's own mean.
 struct Sums {
@@ -88,6 +88,11 @@ double color_variance(const std::vector<SurfacePoint>& points, const Camera& cam
     sums.add(sights);
   }
   return sums.variance();
+}
+
+double color_cost(double variance, double least, double looks) {
+  constexpr double kAlike = 0.2;  // of the logarithm
+  return kColorsPerLook * looks * std::max(0.0, std::log(variance / least) - kAlike);
 }
 
 }  // namespace unseen::collision

@@ -25,6 +25,10 @@ std::vector<SurfacePoint> surface_points(const Body& body, const SpinBody& solid
 double color_variance(const std::vector<SurfacePoint>& points, const Camera& camera, const std::vector<const Look*>& looks,
                       const std::vector<Quat>& orientations);
 
+/// What a variance of `looks` colours costs beside the `least` one as χ²: nothing where they are as good as alike, for the places
+/// that are compared happen to lie beside an edge of the texture or not.
+double color_cost(double variance, double least, double looks);
+
 /// The minimum nearest to `start` of what silhouettes (over `noise`, squared) and colours cost together: first with blurred pictures,
 /// then with sharp ones. `information` counts both, in units of the silhouettes' noise; `cost` remains that of the silhouettes.
 Turning refined_by_colors(const Turning& start, const SpinBody& body, const Camera& camera, const std::vector<Look>& looks,

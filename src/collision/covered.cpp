@@ -15,7 +15,7 @@ constexpr double kAcross = 3.0;       // px from the outline, inwards and outwar
 constexpr int kFewestFrames = 6;      // that something moves at the inner side, and
 constexpr double kNever = 0.05;       // the share of them in which it does at the outer
 constexpr double kEdge = 18.0;        // grey levels between the background's two sides
-constexpr double kOnEdge = 0.7;       // share of the outline beyond which nothing moves that lies on such an edge
+constexpr int kBreak = 2;             // points of the outline, in a row, that may be off the edge
 constexpr double kLeastChord = 0.25;  // of the bounding circle's diameter: less hides next to nothing
 constexpr double kStraight = 1.0;     // px, standard deviation about a line
 constexpr double kSmallest = 25.0;    // px, of the bounding circle: too small to tell
@@ -79,19 +79,24 @@ void mark_covered(const Background& background, cv::Point corner, int scale, Foo
   const cv::Mat count = count_movers(footage);
   const cv::Rect frame({0, 0}, count.size()), view({0, 0}, background.picture.size());
   const auto in_background = [&](const Vec2& p) { return pixel_of((p - Vec2(corner.x, corner.y)) / scale - Vec2::Constant(0.5 - 0.5 / scale)); };
+  const auto on_edge = [&](const OutlinePoint& p) {
+    const cv::Point inner = pixel_of(p.inner), outer = pixel_of(p.outer), behind = in_background(p.inner), before = in_background(p.outer);
+    if (!frame.contains(inner) || !frame.contains(outer) || !view.contains(behind) || !view.contains(before)) return false;
+    const double moving = count.at<unsigned short>(inner);
+    return moving >= kFewestFrames && count.at<unsigned short>(outer) <= kNever * moving && differs(background.picture, behind, before);
+  };
   const auto covered = [&](const Region& region) {
-    double beyond = 0;
-    std::vector<Vec2> on_edge;
-    for (const OutlinePoint& p : outline_of(region)) {
-      const cv::Point inner = pixel_of(p.inner), outer = pixel_of(p.outer), behind = in_background(p.inner), before = in_background(p.outer);
-      if (!frame.contains(inner) || !frame.contains(outer) || !view.contains(behind) || !view.contains(before)) continue;
-      const double moving = count.at<unsigned short>(inner);
-      if (moving < kFewestFrames || count.at<unsigned short>(outer) > kNever * moving) continue;
-      ++beyond;
-      if (differs(background.picture, behind, before)) on_edge.push_back(p.inner);
+    const std::vector<OutlinePoint> outline = outline_of(region);
+    std::vector<Vec2> run;
+    int off = 0;
+    for (std::size_t i = 0; i < 2 * outline.size() && run.size() < outline.size(); ++i) {  // twice around: a run may pass the first point
+      const OutlinePoint& p = outline[i % outline.size()];
+      off = on_edge(p) ? 0 : off + 1;
+      if (off == 0) run.push_back(p.inner);
+      if (static_cast<double>(run.size()) > kLeastChord * region.circle && width_of(run) < kStraight) return true;
+      if (off > kBreak) run.clear();
     }
-    const auto length = static_cast<double>(on_edge.size());
-    return length > kOnEdge * beyond && length > kLeastChord * region.circle && width_of(on_edge) < kStraight;
+    return false;
   };
   parallel_blocks(context, footage.regions.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)

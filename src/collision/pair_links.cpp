@@ -20,6 +20,7 @@ constexpr double kAlikeBent = 0.1;      // of the curvature, by which perspectiv
 constexpr double kSameTime = 2.5;       // frame times between the two bodies' own joints, beside what their spread explains
 constexpr double kMostSlack = 6.0;      // frame times that this may be at most
 constexpr double kMisfit = 2.0;         // ½ χ² a sighting about flights in space
+constexpr double kWorth = 40.0;         // of it in the score
 constexpr double kTouch = 0.85;         // of the sum of the diameters that the centres may be apart at the impact
 constexpr double kUnlike = 15.9;        // σ² between the looks before and after: bodies turn, and show other sides
 constexpr double kOpposed = -0.5;       // cosine between the two changes of velocity: momentum goes from one to the other
@@ -84,6 +85,7 @@ bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vect
   if (!meeting || meeting->misfit > kMisfit || meeting->opposed > kOpposed) return false;
   if (!near(c.a, c.b, (meeting->pixels[0] - meeting->pixels[1]).norm(), noise)) return false;
   c.u = meeting->u;
+  c.score -= kWorth * meeting->misfit;
   return true;
 }
 

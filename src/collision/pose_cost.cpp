@@ -24,6 +24,7 @@ SpinBody spin_body(const Body& body, const std::string& source) {
   result.corners.resize(3, static_cast<Eigen::Index>(vertices.size()));
   for (std::size_t i = 0; i < vertices.size(); ++i) result.corners.col(static_cast<Eigen::Index>(i)) = vertices[i];
   result.symmetry = symmetry_of(vertices);
+  result.nearly_alike = near_turns(vertices, result.symmetry);
   return result;
 }
 

@@ -16,6 +16,7 @@ struct SpinBody {
   Solid solid;
   Eigen::Matrix3Xd corners;  ///< of its convex hull, one a column
   Symmetry symmetry;
+  std::vector<Quat> nearly_alike;  ///< rotations after which it looks nearly as before, beside those of `symmetry`
 };
 
 /// Throws InputError as solid_of does.

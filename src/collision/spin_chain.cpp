@@ -70,7 +70,7 @@ class Joiner {
         result[i][j].cost = std::numeric_limits<double>::infinity();
         for (const Choice& c : choices[i][j]) {
           double cost = kBroken * std::log1p(c.gap * c.gap / kBroken);
-          if (c.variance > 0.0) cost += kColorsPerLook * std::sqrt(static_cast<double>(looks.size())) * std::log(c.variance / least);
+          if (c.variance > 0.0) cost += color_cost(c.variance, least, std::sqrt(static_cast<double>(looks.size())));
           if (cost < result[i][j].cost) result[i][j] = {cost, c.alike};
         }
       }

@@ -16,6 +16,7 @@ constexpr double kFastest = 60.0;        // rad/s
 constexpr std::size_t kSeeds = 120;      // pairs that are refined, at each place
 constexpr std::size_t kBeam = 40;        // of those that are followed
 constexpr int kSteps = 5;                // of each refinement while the window grows
+constexpr std::size_t kSwapped = 4;      // motions, the best ones, that are tried with the body put the other way round
 constexpr double kAlike = 0.12;          // rad, at both ends of the flight
 
 bool better(const Turning& a, const Turning& b) { return a.cost < b.cost; }
@@ -103,6 +104,16 @@ std::vector<Turning> mirrored(const Turning& t, const SpinBody& body, const std:
   return {m};
 }
 
+/// The motion of the body put the other way round, where it looks nearly the same so: outlines tell, but no step leads there.
+std::vector<Turning> swapped(const Turning& t, const SpinBody& body) {
+  std::vector<Turning> all;
+  for (const Quat& g : body.nearly_alike) {
+    all.push_back(t);
+    all.back().q = t.q * g;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<Turning> find_turnings(const SpinBody& body, const Camera& camera, const std::vector<Look>& looks, std::size_t count) {
@@ -116,8 +127,11 @@ std::vector<Turning> find_turnings(const SpinBody& body, const Camera& camera, c
   const double from = looks.front().time, to = looks.back().time;
   keep_best(all, body, from, to, 2 * count);
   std::vector<Turning> more = all;
-  for (const Turning& t : all)
-    for (const Turning& m : mirrored(t, body, looks)) more.push_back(m);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const Turning& m : mirrored(all[i], body, looks)) more.push_back(m);
+    if (i >= kSwapped) continue;
+    for (const Turning& m : swapped(all[i], body)) more.push_back(m);
+  }
   for (Turning& t : more) t = refined(t, body, camera, looks, 0, looks.size(), 15);
   keep_best(more, body, from, to, count);
   return more;

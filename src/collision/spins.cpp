@@ -34,7 +34,7 @@ void add_colors(SpinFlight& flight, const SpinBody& body, const std::vector<Surf
   const double least = *std::min_element(variances.begin(), variances.end());
   for (std::size_t i = 0; i < variances.size(); ++i) {
     flight.turnings[i].cost /= flight.noise * flight.noise;
-    if (least > 0.0) flight.turnings[i].cost += kColorsPerLook * static_cast<double>(looks.size()) * std::log(variances[i] / least);
+    if (least > 0.0) flight.turnings[i].cost += color_cost(variances[i], least, static_cast<double>(looks.size()));
   }
   keep_best(flight.turnings, body, flight.looks.front().time, flight.looks.back().time, kRefined);
 }

@@ -56,6 +56,15 @@ Symmetry symmetry_of(const std::vector<Vec3>& corners, double tolerance) {
   return symmetry;
 }
 
+std::vector<Quat> near_turns(const std::vector<Vec3>& corners, const Symmetry& symmetry) {
+  constexpr double kNearly = 0.15, kSame = 0.35;  // of the reach; rad
+  std::vector<Quat> kinds{Quat::Identity()};
+  for (const Quat& g : symmetry_of(corners, kNearly).turns)
+    if (std::none_of(kinds.begin(), kinds.end(), [&](const Quat& k) { return angle_between(g, k, symmetry.turns) < kSame; })) kinds.push_back(g);
+  kinds.erase(kinds.begin());
+  return kinds;
+}
+
 Quat nearest_alike(const Quat& q, const Quat& to, const std::vector<Quat>& turns) {
   Quat best = q;
   double most = -1.0;

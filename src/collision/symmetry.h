@@ -16,6 +16,9 @@ struct Symmetry {
 
 Symmetry symmetry_of(const std::vector<Vec3>& corners, double tolerance = 0.01);
 
+/// Rotations that map the body nearly onto itself, one of each kind that the symmetry's own turns leave apart.
+std::vector<Quat> near_turns(const std::vector<Vec3>& corners, const Symmetry& symmetry);
+
 /// The member g of `turns` for which q·g is nearest to `to`, as q·g.
 Quat nearest_alike(const Quat& q, const Quat& to, const std::vector<Quat>& turns);
 
