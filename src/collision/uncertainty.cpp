@@ -31,11 +31,13 @@ Residuals residuals_of(const Problem& problem, const State& state) {
   return all;
 }
 
+constexpr double kShown = 2.0;  // times the residuals: what is lopsided about a body that turns cannot hide in a straight flight
+
 /// Shifts each flight's centres alike, and by as much the other way at its other end: regions are lopsided, and turn.
 void shift_flights(Problem& problem, Random& random) {
   struct Flight {
     double begin = 1e300, end = -1e300;
-    Vec2 shift, drift;  // of the projected size
+    Vec2 shift, drift;
   };
   std::map<std::pair<int, bool>, Flight> flights;
   for (const PointObservation& p : problem.points) {
@@ -44,14 +46,15 @@ void shift_flights(Problem& problem, Random& random) {
     f.end = std::max(f.end, p.time);
   }
   for (auto& [key, f] : flights) {
-    f.shift = kLopsided * Vec2(random.normal(), random.normal());
-    f.drift = kLopsided * Vec2(random.normal(), random.normal());
+    f.shift = Vec2(random.normal(), random.normal());
+    f.drift = Vec2(random.normal(), random.normal());
   }
   for (PointObservation& p : problem.points) {
     if (p.depth <= 0.0) continue;
     const Flight& f = flights[{p.body, p.after}];
     const double along = f.end > f.begin ? 2.0 * (p.time - f.begin) / (f.end - f.begin) - 1.0 : 0.0;
-    p.pixel += problem.camera.fx * problem.solids[static_cast<std::size_t>(p.body)].mass.extent / p.depth * (f.shift + along * f.drift);
+    const double off = kLopsided * problem.camera.fx * problem.solids[static_cast<std::size_t>(p.body)].mass.extent / p.depth;
+    p.pixel += (problem.turns(p.body) ? std::min(off, kShown * problem.pixel_sigma) : off) * (f.shift + along * f.drift);
   }
 }
 
