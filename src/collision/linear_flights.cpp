@@ -69,6 +69,13 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
         system.add(z, point.depth - half * g.z(), 1.0 / (spread * spread));
       }
     }
+    for (const SizeTrend& trend : problem.trends) {
+      if (trend.body != body || !problem.terms.size || round == 0) continue;
+      const double t[2] = {trend.begin - time, trend.end - time}, ratio = std::exp(trend.change);
+      const Row first = coordinate(2, t[0], trend.after, solution), last = coordinate(2, t[1], trend.after, solution);
+      const double depth = std::max(0.05, last * solution + 0.5 * t[1] * t[1] * g.z()), spread = depth * trend.sigma;
+      system.add(last - ratio * first, -0.5 * g.z() * (t[1] * t[1] - ratio * t[0] * t[0]), 1.0 / (spread * spread));
+    }
     for (int i = 3; i < 9; ++i) system.normal(i, i) += kRidge * kRidge;
     if (problem.planar)
       for (const int i : {5, 8}) system.normal(i, i) += 1e6;

@@ -28,6 +28,15 @@ struct PointObservation {
   double depth_sigma = 0;  ///< share of the depth; the common error of a flight's sizes is spread over its frames
 };
 
+/// How a body's distance changes along a flight, by its projected sizes.
+struct SizeTrend {
+  int body = 0;
+  bool after = false;           ///< the impact
+  double begin = 0, end = 0;    ///< s, of the flight's sightings
+  double change = 0;            ///< logarithm of the distance at the end over that at the beginning
+  double sigma = 0;
+};
+
 /// An orientation as an observation; `q` maps the principal axes to the camera.
 struct OrientationObservation {
   int body = 0;
@@ -51,6 +60,7 @@ struct Problem {
   std::array<Solid, 2> solids;
   bool fixed = false;                  ///< the second body never moves
   std::optional<Vec3> fixed_normal;    ///< of the fixed body, towards the first
+  bool level = false;                  ///< that normal is not given: it is taken to be up
   std::optional<double> fixed_offset;  ///< of its plane along the normal, m, if known
   std::vector<OtherContact> other_contacts;  ///< with the same plane, before and after this impact
   std::optional<double> mass_ratio;    ///< known
@@ -58,6 +68,7 @@ struct Problem {
   std::array<double, 2> drag = {0, 0};  ///< 1/m
   bool planar = false;                 ///< gravity-free, all in one plane parallel to the image
   std::vector<PointObservation> points;
+  std::vector<SizeTrend> trends;
   std::vector<OrientationObservation> orientations;
   double pixel_sigma = 1.0;            ///< px
   bool filmed = false;                 ///< centres are centroids of regions: off by kLopsided

@@ -107,6 +107,8 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
     adder.add("points", PointTerm{base, seen}, new ceres::HuberLoss(kPointHuber));
     if (terms.size && seen.depth > 0.0) adder.add("size", DepthTerm{base, seen}, new ceres::HuberLoss(1.0));
   }
+  if (terms.size)
+    for (const SizeTrend& seen : problem.trends) adder.add("size trend", TrendTerm{base, seen}, new ceres::HuberLoss(1.0));
   if (terms.orientation)
     for (const OrientationObservation& seen : problem.orientations)
       adder.add("orientation", OrientationTerm{base, seen}, new ceres::HuberLoss(kOrientationHuber));

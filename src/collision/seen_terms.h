@@ -17,11 +17,11 @@ struct Base {
 /// Many terms of one kind: functions of few parts of the state, through which their derivatives go.
 constexpr int kFlightParts = 10;
 
-/// A centre's place, from place and velocity at the impact, down, and the impact's time.
+/// A body's place at a time, from place and velocity at the impact, down, and the impact's time.
 template <class T>
-Vec3T<T> flown(const Problem& problem, const PointObservation& seen, const std::array<T, kFlightParts>& in) {
+Vec3T<T> flown(const Problem& problem, int body, double time, const std::array<T, kFlightParts>& in) {
   const PointState<T> start{Vec3T<T>(in[0], in[1], in[2]), Vec3T<T>(in[3], in[4], in[5])};
-  Vec3T<T> p = fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[seen.body]), T(seen.time) - in[9]).p;
+  Vec3T<T> p = fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[body]), T(time) - in[9]).p;
   constexpr double kNearest = 0.01;  // m: what a step takes behind the camera is far off, and nothing worse
   if (value_of(p.z()) < kNearest) p.z() = T(kNearest);
   return p;
@@ -41,7 +41,7 @@ struct PointTerm : Base {
   auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
-    const Vec3T<T> p = flown<T>(problem, seen, in);
+    const Vec3T<T> p = flown<T>(problem, seen.body, seen.time, in);
     r[0] = (p.x() / p.z() * problem.camera.fx + problem.camera.cx - seen.pixel.x()) / problem.pixel_sigma;
     r[1] = (p.y() / p.z() * problem.camera.fy + problem.camera.cy - seen.pixel.y()) / problem.pixel_sigma;
   }
@@ -56,8 +56,21 @@ struct DepthTerm : Base {
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     using std::log;
-    const Vec3T<T> p = flown<T>(problem, seen, in);
+    const Vec3T<T> p = flown<T>(problem, seen.body, seen.time, in);
     r[0] = log(p.z() / seen.depth) / seen.depth_sigma;
+  }
+};
+
+/// Change of the distance along a flight by the projected sizes.
+struct TrendTerm : Base {
+  static constexpr int kParts = kFlightParts, kResiduals = 1;
+  const SizeTrend& seen;
+  template <class T>
+  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  template <class T>
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
+    using std::log;
+    r[0] = (log(flown<T>(problem, seen.body, seen.end, in).z() / flown<T>(problem, seen.body, seen.begin, in).z()) - seen.change) / seen.sigma;
   }
 };
 

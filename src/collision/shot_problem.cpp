@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "collision/size_trend.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -14,6 +15,8 @@ constexpr double kSphereSize = 0.04;      // share by which all projected sizes 
 constexpr double kOtherSize = 0.12;       // the same where the projected size depends on the orientation
 constexpr double kDownSigma = 0.2;        // rad: hand-held cameras look up or down a little
 constexpr double kDownGivenSigma = 0.01;  // rad, of a direction that the shot gives
+constexpr double kFloor = 0.5;            // rad off up: a given normal that is no farther is a floor's, and
+constexpr double kLevelSigma = 0.02;      // rad, floors are level
 
 void add_points(const Tracks& tracks, int span_index, bool after, const ShotCamera& camera, const std::array<Solid, 2>& solids, Problem& problem) {
   const FlightSpan& span = tracks.spans[span_index];
@@ -63,6 +66,10 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
   problem.filmed = !shot.video.empty();
   problem.orientation_sigma = radians(options.orientation_noise);
   if (problem.fixed) problem.fixed_normal = shot.bodies[1].normal ? shot.bodies[1].normal : shot.floor ? std::optional(shot.floor->normal) : std::nullopt;
+  if (problem.fixed_normal && !shot.down && line_angle(*problem.fixed_normal, -Vec3::UnitY()) < kFloor && problem.fixed_normal->y() < 0.0) {
+    problem.down = -*problem.fixed_normal;
+    problem.down_sigma = kLevelSigma;
+  }
   if (problem.fixed && shot.floor && !shot.bodies[1].normal) problem.fixed_offset = shot.floor->offset;
   if (options.fix_mass_ratio && !problem.fixed) {
     if (!shot.bodies[0].mass || !shot.bodies[1].mass) throw InputError(shot.name, "bodies", "no mass", "the mass of both bodies, for fix_mass_ratio");
@@ -74,6 +81,7 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
   for (const int span : meeting.after) add_points(tracks, span, true, camera, solids, problem);
   if (problem.planar && shot.metres_per_pixel)
     for (PointObservation& p : problem.points) p.depth = camera.camera.fx * *shot.metres_per_pixel, p.depth_sigma = 1e-3;
+  if (problem.filmed && !problem.planar) problem.trends = size_trends(problem);
   return problem;
 }
 

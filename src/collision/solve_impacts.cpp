@@ -20,6 +20,7 @@ void add_floor(Problem& problem, State& state) {
   const Vec3 up = -state.down;
   if (line_angle(up, state.impulse) > kFloor || state.impulse.dot(up) <= 0.0) return;
   problem.fixed_normal = up;
+  problem.level = true;
 }
 
 void settle_again(SolvedImpact& impact) {
@@ -86,21 +87,22 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
 }
 
 void share_gravity(std::vector<SolvedImpact>& impacts) {
-  constexpr double kShared = 0.003;  // rad: to which all impacts of a shot have the same
+  constexpr double kSurest = 0.003, kFilmed = 0.03;  // rad: regions are lopsided, which bends flights as another gravity would
   if (impacts.size() < 2) return;
   // Precision in the plane across the expected direction; each impact's own tilt counts by it.
   Vec3 sum = Vec3::Zero();
+  double precision = 0.0;
   for (SolvedImpact& impact : impacts) {
     add_covariance(impact.solution.problem, impact.solution.fit);
     const double variance = impact.solution.fit.covariance.block<2, 2>(kDown, kDown).trace();
-    if (variance > 0.0) sum += impact.solution.fit.state.down / variance;
+    if (variance > 0.0) sum += impact.solution.fit.state.down / variance, precision += 1.0 / variance;
   }
-  if (sum.norm() == 0.0) return;
+  if (precision == 0.0) return;
   for (SolvedImpact& impact : impacts) {
     impact.solution.problem.down = sum.normalized();
-    impact.solution.problem.down_sigma = kShared;
+    impact.solution.problem.down_sigma = std::max(impact.solution.problem.filmed ? kFilmed : kSurest, 1.0 / std::sqrt(precision));
     impact.solution.fit.state.down = sum.normalized();
-    if (impact.solution.problem.fixed_normal) add_floor(impact.solution.problem, impact.solution.fit.state);
+    if (impact.solution.problem.level) add_floor(impact.solution.problem, impact.solution.fit.state);
     settle_again(impact);
   }
 }

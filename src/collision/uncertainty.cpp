@@ -33,11 +33,11 @@ Residuals residuals_of(const Problem& problem, const State& state) {
 
 constexpr double kShown = 2.0;  // times the residuals: what is lopsided about a body that turns cannot hide in a straight flight
 
-/// Shifts each flight's centres alike, and by as much the other way at its other end: regions are lopsided, and turn.
+/// Shifts each flight's centres alike, by as much the other way at its other end, and in its middle: regions are lopsided, and turn.
 void shift_flights(Problem& problem, Random& random) {
   struct Flight {
     double begin = 1e300, end = -1e300;
-    Vec2 shift, drift;
+    Vec2 shift, drift, bend;
   };
   std::map<std::pair<int, bool>, Flight> flights;
   for (const PointObservation& p : problem.points) {
@@ -48,13 +48,14 @@ void shift_flights(Problem& problem, Random& random) {
   for (auto& [key, f] : flights) {
     f.shift = Vec2(random.normal(), random.normal());
     f.drift = Vec2(random.normal(), random.normal());
+    f.bend = Vec2(random.normal(), random.normal());
   }
   for (PointObservation& p : problem.points) {
     if (p.depth <= 0.0) continue;
     const Flight& f = flights[{p.body, p.after}];
     const double along = f.end > f.begin ? 2.0 * (p.time - f.begin) / (f.end - f.begin) - 1.0 : 0.0;
     const double off = kLopsided * problem.camera.fx * problem.solids[static_cast<std::size_t>(p.body)].mass.extent / p.depth;
-    p.pixel += (problem.turns(p.body) ? std::min(off, kShown * problem.pixel_sigma) : off) * (f.shift + along * f.drift);
+    p.pixel += (problem.turns(p.body) ? std::min(off, kShown * problem.pixel_sigma) : off) * (f.shift + along * f.drift + along * along * f.bend);
   }
 }
 
@@ -83,6 +84,7 @@ Problem resampled(const Problem& problem, const Residuals& residuals, double sca
     const auto& [shift, points] = flights[{p.body, p.after}];
     p.depth *= std::exp(shift * p.depth_sigma / std::sqrt(static_cast<double>(points)));
   }
+  for (SizeTrend& trend : drawn.trends) trend.change += trend.sigma * random.normal();
   return drawn;
 }
 
