@@ -12,11 +12,11 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kAcross = 3.0;       // px from the outline, inwards and outwards, where its two sides are compared
-constexpr int kFewestFrames = 6;      // that something moves at the inner side, and
+constexpr int kFewestFrames = 6;      // that something moves at the inner side, and in which it ends there
 constexpr double kNever = 0.05;       // the share of them in which it does at the outer
 constexpr double kEdge = 18.0;        // grey levels between the background's two sides
 constexpr int kBreak = 2;             // points of the outline, in a row, that may be off the edge
-constexpr double kLeastChord = 0.25;  // of the bounding circle's diameter: less hides next to nothing
+constexpr double kLeastChord = 0.35;  // of the bounding circle's diameter: less hides next to nothing
 constexpr double kStraight = 1.0;     // px, standard deviation about a line
 constexpr double kSmallest = 25.0;    // px, of the bounding circle: too small to tell
 
@@ -72,37 +72,69 @@ bool differs(const cv::Mat& picture, cv::Point a, cv::Point b) {
   return most >= kEdge;
 }
 
-}  // namespace
+/// Tells the outlines that end at something before the scene.
+class Edges {
+ public:
+  Edges(const Background& background, cv::Point corner, int scale, const Footage& footage)
+      : picture_(background.picture), corner_(corner.x, corner.y), scale_(scale), movers_(count_movers(footage)) {}
 
-void mark_covered(const Background& background, cv::Point corner, int scale, Footage& footage, const Context& context) {
-  if (!footage.shift.empty()) return;
-  const cv::Mat count = count_movers(footage);
-  const cv::Rect frame({0, 0}, count.size()), view({0, 0}, background.picture.size());
-  const auto in_background = [&](const Vec2& p) { return pixel_of((p - Vec2(corner.x, corner.y)) / scale - Vec2::Constant(0.5 - 0.5 / scale)); };
-  const auto on_edge = [&](const OutlinePoint& p) {
-    const cv::Point inner = pixel_of(p.inner), outer = pixel_of(p.outer), behind = in_background(p.inner), before = in_background(p.outer);
-    if (!frame.contains(inner) || !frame.contains(outer) || !view.contains(behind) || !view.contains(before)) return false;
-    const double moving = count.at<unsigned short>(inner);
-    return moving >= kFewestFrames && count.at<unsigned short>(outer) <= kNever * moving && differs(background.picture, behind, before);
-  };
-  const auto covered = [&](const Region& region) {
+  /// A straight run of the outline along an edge of the background, with nothing beyond; empty if there is none of some length.
+  std::vector<cv::Point> run_of(const Region& region) const {
     const std::vector<OutlinePoint> outline = outline_of(region);
     std::vector<Vec2> run;
+    std::vector<cv::Point> longest;
     int off = 0;
     for (std::size_t i = 0; i < 2 * outline.size() && run.size() < outline.size(); ++i) {  // twice around: a run may pass the first point
       const OutlinePoint& p = outline[i % outline.size()];
       off = on_edge(p) ? 0 : off + 1;
-      if (off == 0) run.push_back(p.inner);
-      if (static_cast<double>(run.size()) > kLeastChord * region.circle && width_of(run) < kStraight) return true;
       if (off > kBreak) run.clear();
+      if (off > 0) continue;
+      run.push_back(p.inner);
+      if (run.size() <= longest.size() || static_cast<double>(run.size()) <= kLeastChord * region.circle || width_of(run) >= kStraight) continue;
+      longest.clear();
+      for (const Vec2& q : run) longest.push_back(pixel_of(q));
     }
-    return false;
-  };
-  parallel_blocks(context, footage.regions.size(), 8, [&](std::size_t begin, std::size_t end) {
+    return longest;
+  }
+
+ private:
+  cv::Point in_background(const Vec2& p) const { return pixel_of((p - corner_) / scale_ - Vec2::Constant(0.5 - 0.5 / scale_)); }
+
+  bool on_edge(const OutlinePoint& p) const {
+    const cv::Rect frame({0, 0}, movers_.size()), view({0, 0}, picture_.size());
+    const cv::Point inner = pixel_of(p.inner), outer = pixel_of(p.outer), behind = in_background(p.inner), before = in_background(p.outer);
+    if (!frame.contains(inner) || !frame.contains(outer) || !view.contains(behind) || !view.contains(before)) return false;
+    const double moving = movers_.at<unsigned short>(inner);
+    return moving >= kFewestFrames && movers_.at<unsigned short>(outer) <= kNever * moving && differs(picture_, behind, before);
+  }
+
+  cv::Mat picture_;
+  Vec2 corner_;
+  int scale_;
+  cv::Mat movers_;
+};
+
+}  // namespace
+
+void mark_covered(const Background& background, cv::Point corner, int scale, Footage& footage, const Context& context) {
+  if (!footage.shift.empty()) return;
+  const Edges edges(background, corner, scale, footage);
+  std::vector<std::vector<std::vector<cv::Point>>> runs(footage.regions.size());  // by frame and region
+  parallel_blocks(context, runs.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      for (Region& region : footage.regions[k])
-        if (!region.shadow && region.circle >= kSmallest) region.covered = covered(region);
+      for (const Region& r : footage.regions[k])
+        runs[k].push_back(r.shadow || r.circle < kSmallest ? std::vector<cv::Point>() : edges.run_of(r));
   });
+  cv::Mat ends = cv::Mat::zeros(footage.height, footage.width, CV_16U), spread;  // in how many frames such a run passes
+  for (const auto& frame : runs)
+    for (const auto& run : frame)
+      for (const cv::Point& p : run) ++ends.at<unsigned short>(p);
+  cv::dilate(ends, spread, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (std::size_t i = 0; i < runs[k].size(); ++i) {
+      const auto often = std::count_if(runs[k][i].begin(), runs[k][i].end(), [&](const cv::Point& p) { return spread.at<unsigned short>(p) >= kFewestFrames; });
+      footage.regions[k][i].covered = often > 0 && 2 * static_cast<std::size_t>(often) >= runs[k][i].size();
+    }
 }
 
 }  // namespace unseen::collision

@@ -57,6 +57,16 @@ TEST(Reconstruct, OneRestitutionForAllImpactsIfAsked) {
   EXPECT_NEAR(r.impacts[0].restitution.value, r.impacts[1].restitution.value, 0.005);
 }
 
+TEST(Reconstruct, AGivenFloorStaysAsGiven) {
+  Shot shot = bouncing_ball(0.7);
+  const Vec3 normal = Vec3(0.0, -1.0, 0.05).normalized();
+  shot.bodies[1].normal = normal;
+  Context context;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  ASSERT_GE(r.impacts.size(), 2u);
+  for (const Impact& impact : r.impacts) EXPECT_LT((r.T_world_camera.rotation.transpose() * impact.normal - normal).norm(), 1e-6);
+}
+
 TEST(Reconstruct, SaysThatAFlightHasNoCollision) {
   Shot shot = bouncing_ball(0.7, 22);
   Context context;

@@ -228,6 +228,38 @@ TEST(Regions, AShadowIsCutOffOrMarked) {
   EXPECT_GT(seen, 5);
 }
 
+TEST(Regions, WhatSomethingBeforeTheSceneCutsIsMarked) {
+  const Scratch scratch("post");
+  const std::string path = scratch.file("post.avi");
+  const cv::Rect post(150, 0, 30, kHeight);
+  constexpr double kRadius = 18.0;
+  const auto place = [](int k) { return Vec2(70.0 + 3.0 * k, 120.0 + 0.05 * (k - 30) * (k - 30)); };
+  Random random(3);
+  const cv::Mat background = wall();
+  write_video(path, 60, [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, place(k), kRadius, kRed);
+    cv::rectangle(frame, post, cv::Scalar(40, 60, 50), cv::FILLED);
+    add_noise(frame, 2.0, random);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  int cut = 0;
+  for (int k = 1; k < 59; ++k)
+    for (const Region& r : footage.regions[k]) {
+      if (r.shadow || r.area < 200.0) continue;
+      const double x = place(k).x(), left = post.x - x, right = x - (post.x + post.width);
+      if (std::max(left, right) > kRadius + 3.0) {
+        EXPECT_FALSE(r.covered) << k;
+      } else if (std::max(left, right) < 0.6 * kRadius) {
+        EXPECT_TRUE(r.covered) << k;
+        ++cut;
+      }
+    }
+  EXPECT_GT(cut, 6);
+}
+
 TEST(Regions, RoiFramesAndRateOfTheShot) {
   const Scratch scratch("roi");
   const std::string path = scratch.file("roi.avi");

@@ -80,6 +80,20 @@ TEST(Symmetry, OfBoxesIsThatOfTheirEdges) {
   EXPECT_EQ(count({0.1, 0.1, 0.1}).turns.size(), 24U);
 }
 
+TEST(Symmetry, NearlyAlikeAreTurnsThatExchangeLikeEdges) {
+  const auto near = [](const Vec3& edges) {
+    const std::vector<Vec3> corners = columns(box_corners(edges));
+    return near_turns(corners, symmetry_of(corners));
+  };
+  EXPECT_TRUE(near({0.3, 0.2, 0.1}).empty());
+  EXPECT_TRUE(near({0.1, 0.1, 0.1}).empty());      // alike, not nearly
+  EXPECT_EQ(near({0.1, 0.105, 0.11}).size(), 5U);  // 24 of a cube, four a kind, but for the box's own
+  const std::vector<Quat> one = near({0.14, 0.105, 0.101});
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_LT((one[0] * Vec3::UnitX()).cross(Vec3::UnitX()).norm(), 0.1);  // the long edge keeps its place
+  EXPECT_LT((one[0] * Vec3::UnitY()).cross(Vec3::UnitZ()).norm(), 0.1);
+}
+
 TEST(Symmetry, OfALopsidedBodyIsNone) {
   std::vector<Vec3> corners = columns(box_corners({0.3, 0.2, 0.1}));
   corners[0] *= 1.4;

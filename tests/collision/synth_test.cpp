@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "collision/mass_properties.h"
+#include "collision/synth_body.h"
 #include "collision/synth_motion.h"
 #include "unseen/core/error.h"
 
@@ -255,6 +256,31 @@ TEST(Synth, ScenesAreWhatTheirNamesSay) {
     EXPECT_GT(fastest, 7);
     EXPECT_LT(fastest, 32);
   }
+}
+
+TEST(Synth, EachBodyIsSeenWholeBesideTheCurtain) {
+  for (const char* scene : {"boxes", "balls"})
+    for (int seed = 1; seed <= 3; ++seed) {
+      SynthOptions options;
+      options.scene = scene;
+      options.seed = seed;
+      options.curtain = true;
+      const Truth truth = simulate(options).truth;
+      const RigidTransform T = truth.T_world_camera.inverse();
+      const Vec3 contact = T * truth.impacts[0].contact_point;
+      double reach[2] = {};
+      for (std::size_t i = 0; i < 2; ++i) reach[i] = synth_body(truth.bodies[i]).reach;
+      const double half = 1.2 * truth.camera.fx * std::max(reach[0], reach[1]) / contact.z();
+      int beside[2][2] = {};
+      for (const FramePose& f : truth.frames)
+        for (std::size_t i = 0; i < 2; ++i) {
+          const Vec3 p = T * f.bodies[i]->p;
+          const double away = std::abs(truth.camera.project(p).x() - truth.camera.project(contact).x());
+          beside[i][f.time > truth.impacts[0].time] += away > half + truth.camera.fx * reach[i] / p.z();
+        }
+      for (const auto& body : beside)
+        for (const int frames : body) EXPECT_GE(frames, 19) << scene << " " << seed;  // 0.08 s
+    }
 }
 
 TEST(Synth, TracksAreProjectionsWithinTheirNoise) {

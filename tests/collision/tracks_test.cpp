@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "collision/arcs.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision::test {
@@ -236,6 +237,53 @@ TEST(Pair, AFlightGoesOnWhereSilhouettesHadMerged) {
     EXPECT_GT(tracks.points[tracks.spans[static_cast<std::size_t>(s)].end - 1].frame, 95);
   }
   EXPECT_EQ(tracks.collisions_seen, 1);
+}
+
+TEST(Arcs, EndWhereSilhouettesMergeAtTheImpact) {
+  Random random(18);
+  const Meeting motion;
+  std::vector<Sighting> sightings = both(motion, 0.08, 0.05, 0.1, 0.0, random);
+  std::erase_if(sightings, [](const Sighting& s) { return s.frame > 56 && s.frame < 63; });
+  for (int k = 57; k < 63; ++k) {
+    const double t = k / kFps;
+    sightings.push_back(seen(k, 0.72 * motion.at(0, t) + 0.28 * motion.at(1, t), 0.09, -1, 0.1, random));  // of both together
+  }
+  Context context;
+  const std::vector<Arc> arcs = find_arcs(candidates_of(sightings, camera()), 0.5, 0.5, context);
+  ASSERT_GE(arcs.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_GE(arcs[i].points.size(), 35u);
+    EXPECT_TRUE(arcs[i].end() < 57.0 || arcs[i].begin() > 62.0) << arcs[i].begin() << " to " << arcs[i].end();
+  }
+}
+
+/// A ball in space whose distance changes: perspective bends what is no parabola of the picture then.
+Vec3 in_space(int body, double s) {
+  const Vec3 push(-4.0, 0.3, -1.5);
+  const Vec3 v = body == 0 ? Vec3(Vec3(2.2, -0.2, 0.6) + (s < 0 ? 0.0 : 1.0) * push) : Vec3(Vec3(-1.1, -0.3, -0.4) - (s < 0 ? 0.0 : 0.75) * push);
+  return Vec3(body == 0 ? -0.07 : 0.07, -0.2, 2.5) + s * v + Vec3(0, 4.905 * s * s, 0);
+}
+
+TEST(Pair, AnImpactThatNobodySeesForLongIsTimed) {
+  Random random(19);
+  constexpr double kImpact = 0.5;
+  std::vector<Sighting> sightings;
+  for (int k = 10; k < 110; ++k) {
+    if (k > 36 && k < 82) continue;  // 0.38 s
+    for (const int body : {0, 1}) {
+      const Vec3 p = in_space(body, k / kFps - kImpact);
+      const Vec2 pixel = Vec2(640, 360) + kFocal / p.z() * p.head<2>();
+      sightings.push_back({k, pixel + 0.15 * Vec2(random.normal(), random.normal()), kFocal / p.z() * (body == 0 ? 0.08 : 0.06), -1});
+    }
+  }
+  Context context;
+  const Tracks tracks = find_tracks(pair_shot(0.08, 0.06), camera(), sightings, kFps, context);
+  ASSERT_EQ(tracks.meetings.size(), 1u);
+  EXPECT_NEAR(tracks.meetings[0].time, kImpact, 1.0 / kFps);
+  for (const TrackPoint& p : tracks.points) {
+    const Vec3 at = in_space(p.body, p.time - kImpact);
+    EXPECT_LT((p.pixel - Vec2(640, 360) - kFocal / at.z() * at.head<2>()).norm(), 1.5) << p.frame;
+  }
 }
 
 TEST(Pair, AThirdMoverIsLeftOut) {
