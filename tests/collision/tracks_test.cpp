@@ -9,6 +9,8 @@
 #include <set>
 
 #include "collision/arcs.h"
+#include "collision/meeting_in_space.h"
+#include "collision/pair_links.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision::test {
@@ -257,33 +259,44 @@ TEST(Arcs, EndWhereSilhouettesMergeAtTheImpact) {
   }
 }
 
-/// A ball in space whose distance changes: perspective bends what is no parabola of the picture then.
+/// Balls in space whose distances change: perspective bends what is no parabola of the picture then.
 Vec3 in_space(int body, double s) {
-  const Vec3 push(-4.0, 0.3, -1.5);
-  const Vec3 v = body == 0 ? Vec3(Vec3(2.2, -0.2, 0.6) + (s < 0 ? 0.0 : 1.0) * push) : Vec3(Vec3(-1.1, -0.3, -0.4) - (s < 0 ? 0.0 : 0.75) * push);
+  const Vec3 push(-3.0, 0.3, 0.3);
+  const Vec3 v = body == 0 ? Vec3(Vec3(2.2, -0.2, -1.6) + (s < 0 ? 0.0 : 1.0) * push) : Vec3(Vec3(-1.1, -0.3, 1.5) - (s < 0 ? 0.0 : 0.75) * push);
   return Vec3(body == 0 ? -0.07 : 0.07, -0.2, 2.5) + s * v + Vec3(0, 4.905 * s * s, 0);
 }
 
-TEST(Pair, AnImpactThatNobodySeesForLongIsTimed) {
+Arc arc_in_space(int body, int from, int to, double radius, double impact, Random& random) {
+  Arc arc;
+  for (int k = from; k < to; ++k) {
+    const Vec3 p = in_space(body, (k - impact) / kFps);
+    Candidate c;
+    c.frame = k;
+    c.u = k;
+    c.pixel = Vec2(640, 360) + kFocal / p.z() * p.head<2>() + 0.15 * Vec2(random.normal(), random.normal());
+    c.diameter = 2.0 * radius * kFocal / p.z();
+    arc.points.push_back(c);
+  }
+  return arc;
+}
+
+TEST(Pair, FlightsInSpaceTimeAnImpactThatNobodySeesForLong) {
   Random random(19);
-  constexpr double kImpact = 0.5;
-  std::vector<Sighting> sightings;
-  for (int k = 10; k < 110; ++k) {
-    if (k > 36 && k < 82) continue;  // 0.38 s
-    for (const int body : {0, 1}) {
-      const Vec3 p = in_space(body, k / kFps - kImpact);
-      const Vec2 pixel = Vec2(640, 360) + kFocal / p.z() * p.head<2>();
-      sightings.push_back({k, pixel + 0.15 * Vec2(random.normal(), random.normal()), kFocal / p.z() * (body == 0 ? 0.08 : 0.06), -1});
-    }
+  constexpr double kImpact = 60.0, kNoise = 0.3;
+  const double radius[2] = {0.08, 0.06};
+  std::array<Arc, 4> arcs;
+  for (int i = 0; i < 4; ++i) arcs[static_cast<std::size_t>(i)] = arc_in_space(i % 2, i < 2 ? 10 : 80, i < 2 ? 40 : 110, radius[i % 2], kImpact, random);
+  const auto meeting = meet_in_space(pair_shot(radius[0], radius[1]), camera(), {&arcs[0], &arcs[1], &arcs[2], &arcs[3]}, 39.0, 80.0, kNoise, kFps);
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(meeting->u, kImpact, 0.75);
+  EXPECT_LT(meeting->misfit, 1.5);
+  EXPECT_LT(meeting->opposed, -0.95);
+  for (int body = 0; body < 2; ++body) {
+    const Vec3 p = in_space(body, 0.0);
+    EXPECT_LT((meeting->pixels[static_cast<std::size_t>(body)] - Vec2(640, 360) - kFocal / p.z() * p.head<2>()).norm(), 2.0);
   }
-  Context context;
-  const Tracks tracks = find_tracks(pair_shot(0.08, 0.06), camera(), sightings, kFps, context);
-  ASSERT_EQ(tracks.meetings.size(), 1u);
-  EXPECT_NEAR(tracks.meetings[0].time, kImpact, 1.0 / kFps);
-  for (const TrackPoint& p : tracks.points) {
-    const Vec3 at = in_space(p.body, p.time - kImpact);
-    EXPECT_LT((p.pixel - Vec2(640, 360) - kFocal / at.z() * at.head<2>()).norm(), 1.5) << p.frame;
-  }
+  const double in_the_picture = common_time(link_of(arcs[0], arcs[2], kNoise), link_of(arcs[1], arcs[3], kNoise), kNoise);
+  EXPECT_LT(std::abs(meeting->u - kImpact), 0.6 * std::abs(in_the_picture - kImpact));
 }
 
 TEST(Pair, AThirdMoverIsLeftOut) {
