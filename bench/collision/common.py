@@ -97,12 +97,21 @@ def scores(code, seconds, result, c_true, m_true):
 
 def simulated(bench, name, synth, solve=None, **columns):
     """Makes and reconstructs one simulated case: its row. `columns` lead it. The solver is told how good the orientations are."""
+    told = {"orientation_noise": max(LEAST_TOLD, synth.get("orientation_noise", 0))}
+    return measured(bench, name, synth | {"video": False}, told | (solve or {}), columns)
+
+
+def filmed(bench, name, synth, **columns):
+    """The same from a film, with nothing told."""
+    return measured(bench, name, synth, {}, columns)
+
+
+def measured(bench, name, synth, solve, columns):
     shot, out = bench.work / name / "shot", bench.work / name / "out"
-    code, error = command("synth", "collision", "-o", shot, "--video=false", *flags(synth))
+    code, error = command("synth", "collision", "-o", shot, *flags(synth))
     if code:
         raise RuntimeError(f"unseen synth collision {' '.join(flags(synth))}: {error}")
-    told = {"orientation_noise": max(LEAST_TOLD, synth.get("orientation_noise", 0))}
-    code, seconds, result = reconstruct(shot, out, told | (solve or {}))
+    code, seconds, result = reconstruct(shot, out, solve)
     truth = read(shot / "truth.json")
     ratio = truth["mass_ratio"]
     row = {"case": name, **columns, "seed": synth["seed"], **scores(code, seconds, result, truth["restitution"]["value"], ratio and ratio["value"])}

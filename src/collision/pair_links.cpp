@@ -24,7 +24,7 @@ constexpr double kWorth = 40.0;         // of it in the score
 constexpr double kTouch = 0.85;         // of the sum of the diameters that the centres may be apart at the impact
 constexpr double kUnlike = 15.9;        // σ² between the looks before and after: bodies turn, and show other sides
 constexpr double kOpposed = -0.5;       // cosine between the two changes of velocity: momentum goes from one to the other
-constexpr double kSizesDiffer = 0.12;  // of the logarithm of the size ratio
+constexpr double kSizesDiffer = 0.12;   // of the logarithm of the size ratio
 constexpr double kOneCollision = 4.0;   // frame times between two collisions
 
 CurveSums sums_of(const Arc& arc) {
@@ -89,24 +89,28 @@ bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vect
   return true;
 }
 
-/// Whether two links make one collision; false if not. Sets its time and score.
-bool agree(const std::vector<Arc>& arcs, double noise, Collision& collision) {
-  const Link &a = collision.a, &b = collision.b;
-  const double u = common_time(a, b, noise);
-  if (std::isnan(u)) return false;
-  const Joint ja = joint_of(a, u, noise), jb = joint_of(b, u, noise);
+/// How far apart in time each link alone is nearest to closed.
+double time_between(const Link& a, const Link& b, double noise) { return std::abs(own_joint(a, noise).u - own_joint(b, noise).u); }
+
+/// Whether both links close at one time, by pushes that momentum allows. Sets the time and the score.
+bool agree(const std::vector<Arc>& arcs, double noise, Collision& c) {
+  c.u = common_time(c.a, c.b, noise);
+  if (std::isnan(c.u)) return false;
+  const Joint ja = joint_of(c.a, c.u, noise), jb = joint_of(c.b, c.u, noise);
   if (ja.apart > ja.tolerance || jb.apart > jb.tolerance || !ja.sudden || !jb.sudden) return false;
-  const double off = std::abs(own_joint(a, noise).u - own_joint(b, noise).u);
-  const bool unseen = is_unseen(a, b);
-  if (!unseen && off > kSameTime + std::min(kMostSlack, 4.0 * (ja.spread / ja.change.norm() + jb.spread / jb.change.norm()))) return false;
-  const Vec2 pa = 0.5 * (a.curve_before.at(u) + a.curve_after.at(u)), pb = 0.5 * (b.curve_before.at(u) + b.curve_after.at(u));
-  if (!unseen && !near(a, b, (pa - pb).norm(), noise)) return false;
   const double opposed = ja.change.dot(jb.change) / (ja.change.norm() * jb.change.norm());
   if (opposed > kOpposed) return false;
-  collision.u = u;
-  collision.score = -20.0 * opposed - (ja.apart + jb.apart) / noise - 4.0 * off - a.unlike - b.unlike;
-  for (const std::size_t k : collision.arcs()) collision.score += std::min<double>(30.0, static_cast<double>(arcs[k].points.size()));
+  c.score = -20.0 * opposed - (ja.apart + jb.apart) / noise - 4.0 * time_between(c.a, c.b, noise) - c.a.unlike - c.b.unlike;
+  for (const std::size_t k : c.arcs()) c.score += std::min<double>(30.0, static_cast<double>(arcs[k].points.size()));
   return true;
+}
+
+/// Whether parabolas of the picture say so of each link alone, and where the bodies can touch.
+bool meet_in_the_picture(const Collision& c, double noise) {
+  const Joint ja = joint_of(c.a, c.u, noise), jb = joint_of(c.b, c.u, noise);
+  const double slack = kSameTime + std::min(kMostSlack, 4.0 * (ja.spread / ja.change.norm() + jb.spread / jb.change.norm()));
+  const Vec2 pa = 0.5 * (c.a.curve_before.at(c.u) + c.a.curve_after.at(c.u)), pb = 0.5 * (c.b.curve_before.at(c.u) + c.b.curve_after.at(c.u));
+  return time_between(c.a, c.b, noise) <= slack && near(c.a, c.b, (pa - pb).norm(), noise);
 }
 
 }  // namespace
@@ -152,8 +156,8 @@ std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camer
       if (a.before == b.before || a.after == b.after || a.before == b.after || a.after == b.before) continue;
       Collision collision{a, b, 0.0, 0.0};
       if (!agree(arcs, noise, collision)) continue;
-      if (is_unseen(a, b) && !settle_in_space(shot, camera, arcs, noise, fps, collision)) continue;
-      found.push_back(collision);
+      const bool in_the_picture = meet_in_the_picture(collision, noise), in_space = is_unseen(a, b) && settle_in_space(shot, camera, arcs, noise, fps, collision);
+      if (in_the_picture || in_space) found.push_back(collision);
     }
   std::stable_sort(found.begin(), found.end(), [](const Collision& x, const Collision& y) { return x.score > y.score; });
   return found;
