@@ -10,6 +10,7 @@
 #include "collision/frame_clock.h"
 #include "collision/residuals.h"
 #include "collision/restitution.h"
+#include "collision/symmetry.h"
 #include "collision/unknowns.h"
 
 namespace unseen::collision {
@@ -85,6 +86,10 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
     const double along = sd(kV + 3 * o + 2), across = std::max(sd(kV + 3 * o), sd(kV + 3 * o + 1));
     if (along > 0.2 && along > 5.0 * across) remarks.push_back(fmt::format("{}: its speed along the view ray is known to ±{:.1f} m/s only", name, along));
     if (!problem.solids[o].is_sphere() && !problem.turns(o)) remarks.push_back(fmt::format("{}: how it turns is not known; the impact is taken as one of its centre", name));
+    const bool found = std::none_of(shot.orientations.begin(), shot.orientations.end(), [&](const auto& given) { return given.body == o; });
+    const std::optional<double> alike = nearly_alike_sides(shot.bodies[o]);
+    if (alike && found && problem.turns(o))
+      remarks.push_back(fmt::format("{}: two of its sides differ by {:.0f} % only; it may be turned by 90° about the third", name, 100.0 * *alike));
   }
   if (!fit.state.law) remarks.push_back("the contact's normal is taken to be the impulse's direction: friction is not told from restitution");
   return remarks;

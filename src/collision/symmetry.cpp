@@ -65,6 +65,16 @@ std::vector<Quat> near_turns(const std::vector<Vec3>& corners, const Symmetry& s
   return kinds;
 }
 
+std::optional<double> nearly_alike_sides(const Body& body) {
+  constexpr double kSame = 0.01, kTold = 0.04;
+  std::optional<double> least;
+  for (int i = 0; body.shape == Shape::box && i < 3; ++i) {
+    const double a = body.box[i], b = body.box[(i + 1) % 3], share = std::abs(a - b) / std::max(a, b);
+    if (share > kSame && share < kTold && (!least || share < *least)) least = share;
+  }
+  return least;
+}
+
 Quat nearest_alike(const Quat& q, const Quat& to, const std::vector<Quat>& turns) {
   Quat best = q;
   double most = -1.0;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "unseen/collision/types.h"
@@ -18,6 +19,10 @@ Symmetry symmetry_of(const std::vector<Vec3>& corners, double tolerance = 0.01);
 
 /// Rotations that map the body nearly onto itself, one of each kind that the symmetry's own turns leave apart.
 std::vector<Quat> near_turns(const std::vector<Vec3>& corners, const Symmetry& symmetry);
+
+/// How much two sides of a box differ, as a share, where that is so little that outlines hardly tell them apart; nothing for other shapes, for
+/// sides that are the same, and where all differ clearly.
+std::optional<double> nearly_alike_sides(const Body& body);
 
 /// The member g of `turns` for which q·g is nearest to `to`, as q·g.
 Quat nearest_alike(const Quat& q, const Quat& to, const std::vector<Quat>& turns);

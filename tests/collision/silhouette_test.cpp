@@ -94,6 +94,21 @@ TEST(Symmetry, NearlyAlikeAreTurnsThatExchangeLikeEdges) {
   EXPECT_LT((one[0] * Vec3::UnitY()).cross(Vec3::UnitZ()).norm(), 0.1);
 }
 
+TEST(Symmetry, SidesThatOutlinesHardlyTellApart) {
+  Body box;
+  box.shape = Shape::box;
+  const auto alike = [&](const Vec3& edges) {
+    box.box = edges;
+    return nearly_alike_sides(box);
+  };
+  EXPECT_FALSE(alike({0.3, 0.2, 0.1}));
+  EXPECT_FALSE(alike({0.3, 0.1, 0.1}));
+  ASSERT_TRUE(alike({0.103, 0.2, 0.1}));
+  EXPECT_NEAR(*alike({0.103, 0.2, 0.1}), 0.003 / 0.103, 1e-12);
+  EXPECT_NEAR(*alike({0.1, 0.102, 0.105}), 0.002 / 0.102, 1e-12);  // the likest two
+  EXPECT_FALSE(nearly_alike_sides(Body()));
+}
+
 TEST(Symmetry, OfALopsidedBodyIsNone) {
   std::vector<Vec3> corners = columns(box_corners({0.3, 0.2, 0.1}));
   corners[0] *= 1.4;
