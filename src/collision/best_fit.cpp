@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "collision/median.h"
 #include "collision/starts.h"
 #include "collision/unknowns.h"
 
@@ -15,13 +16,6 @@ namespace {
 constexpr double kAlike = 3.0;           // ½ χ² by which another solution may be worse and still explains the data alike
 constexpr double kOtherValue = 0.05;     // of restitution, or as a share of the mass ratio: less is no other solution
 constexpr double kLeastOrientation = 0.002;  // rad
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// The noise as the residuals have it: medians, corrected for the unknowns that the data had to pay for. `expected` is the problem as it came.
 void estimate_noise(const Problem& expected, Problem& problem, const State& state) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/median.h"
 #include "unseen/collision/body_mesh.h"
 
 namespace unseen::collision {
@@ -59,12 +60,6 @@ Figure drawn(const std::vector<cv::Point2f>& pixels, const TriangleMesh& mesh) {
   f.centroid = (f.centroid - Vec2(3, 3)) / scale + Vec2(box.x, box.y);
   f.area /= scale * scale;
   return f;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

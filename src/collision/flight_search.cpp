@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "collision/linear_flights.h"
+#include "collision/median.h"
 #include "collision/shot_problem.h"
 
 namespace unseen::collision {
@@ -13,12 +14,6 @@ namespace {
 
 constexpr std::size_t kFewest = 4;   // sightings of a flight
 constexpr double kExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A body's sightings in order of time; empty if a frame has two.
 std::vector<Candidate> sightings_of(const Candidates& candidates, int body) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/median.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -17,12 +19,6 @@ constexpr double kOddSize = 0.25;    // off the flight's typical diameter: merge
 constexpr std::size_t kFewestNear = 6;  // points of a curve near an end
 constexpr double kExplained = 1.5;   // χ² a degree of freedom
 constexpr double kShorter = 0.8;     // of the points, from one try to the next
-
-double median(std::vector<double> values) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Fit to the first points that `points` gives by index.
 template <class At>

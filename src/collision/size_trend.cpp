@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "collision/median.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -18,12 +20,6 @@ constexpr double kOutlier = 3.0;     // σ
 struct Size {
   double time, log_depth, diameter;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A parabola about the middle of the times, in units of half their span: its coefficients.
 Vec3 parabola(const std::vector<Size>& sizes, double middle, double half) {
