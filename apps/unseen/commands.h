@@ -27,7 +27,7 @@ Command add_interactions(CLI::App& app, const std::string& shell_command);
 Command add_convert(CLI::App& app);
 Command add_scenelets_build(CLI::App& scenelets);
 Command add_scenelets_info(CLI::App& scenelets);
-Command add_stage(CLI::App& app);
+Command add_stage(CLI::App& app, const std::string& shell_command);
 Command add_view(CLI::App& app);
 Command add_synth_planes(CLI::App& synth);
 Command add_synth_cuboids(CLI::App& synth);

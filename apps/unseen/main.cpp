@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
   scenelets->require_subcommand(0, 1)->footer("Example:\n  unseen scenelets build office lobby -o people.bin");
   const std::string command = shell_command({argv, argv + argc});
   const std::vector<Command> commands = {add_planes(app, command), add_cuboids(app, command),
-                                         add_collision(app, command), add_interactions(app, command), add_stage(app), add_convert(app),
+                                         add_collision(app, command), add_interactions(app, command), add_stage(app, command), add_convert(app),
                                          add_synth_planes(*synth), add_synth_cuboids(*synth), add_synth_collision(*synth), add_synth_interactions(*synth),
                                          add_evaluate_planes(*evaluate), add_evaluate_cuboids(*evaluate), add_evaluate_collision(*evaluate),
                                          add_evaluate_interactions(*evaluate), add_scenelets_build(*scenelets), add_scenelets_info(*scenelets),

@@ -11,6 +11,7 @@
 #include "session.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/sha256.h"
+#include "unseen/report/page.h"
 #include "unseen/report/stage_files.h"
 #include "write_text.h"
 
@@ -21,8 +22,9 @@ namespace fs = std::filesystem;
 
 struct Arguments {
   std::vector<std::string> inputs;
-  std::string out;
+  std::string out, shell_command;
   CommonFlags common;
+  bool no_report = false;
 };
 
 collision::StagePlan plan_of(const std::vector<std::string>& inputs) {
@@ -31,20 +33,23 @@ collision::StagePlan plan_of(const std::vector<std::string>& inputs) {
   return is_list ? report::read_stage_list(inputs.front()) : report::stage_side_by_side(inputs);
 }
 
-void write_files(const collision::StagePlan& plan, const collision::StagedShot& shot, const Arguments& args, const io::OutputFolder& out, Context& context) {
+void write_files(const collision::StagedShot& shot, const Arguments& args, const io::OutputFolder& out, Context& context) {
   const fs::path first = fs::is_directory(args.inputs.front()) ? fs::path(args.inputs.front()) / "result.json" : fs::path(args.inputs.front());
-  write_text(out.file("result.json"), report::stage_json(plan, shot, {args.inputs.front(), io::sha256(first.string(), context)}));
-  write_text(out.file("scene.glb"), report::stage_glb(plan, shot));
+  const report::InputRecord input = {args.inputs.front(), io::sha256(first.string(), context)};
+  write_text(out.file("result.json"), report::stage_json(shot, input));
+  write_text(out.file("scene.glb"), report::stage_glb(shot));
   write_text(out.file("scene.usda"), report::stage_usda(shot));
   for (std::size_t i = 0; i < shot.actors.size(); ++i)
     if (shot.actors[i].body.shape == collision::Shape::mesh) write_text(out.file(report::actor_file(shot, i)), report::actor_obj(shot, i));
+  if (!args.no_report)
+    write_text(out.file("report.html"), report::page_of(report::stage_title(input), {report::stage_scene(shot, input, args.shell_command)}));
 }
 
-void print_summary(const collision::StagedShot& shot, const std::string& out) {
+void print_summary(const collision::StagedShot& shot, const Arguments& args) {
   const auto name = [&](int i) { return i >= 0 ? shot.actors[static_cast<std::size_t>(i)].name : shot.walls[static_cast<std::size_t>(-1 - i)].name; };
   for (const collision::StagedImpact& i : shot.impacts)
     fmt::print("{:.4f} s: {} and {}, restitution {:.3f} of {:.3f}\n", i.time, name(i.between[0]), name(i.between[1]), i.restitution, i.expected);
-  fmt::print("result: {}\n", (fs::path(out) / "result.json").string());
+  fmt::print("{}: {}\n", args.no_report ? "result" : "report", (fs::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
 }
 
 int run(Arguments& args) {
@@ -59,25 +64,27 @@ int run(Arguments& args) {
   const collision::StagePlan plan = plan_of(args.inputs);
   io::OutputFolder out(args.out);
   const collision::StagedShot shot = collision::stage(plan, context);
-  write_files(plan, shot, args, out, context);
+  write_files(shot, args, out, context);
   context.check();
   session.progress.warn(shot.summary.warnings);
   session.progress.warn(out.commit());
   if (args.common.json) {
     fmt::print("{}", report::summary_json(shot.summary));
   } else if (!args.common.quiet) {
-    print_summary(shot, args.out);
+    print_summary(shot, args);
   }
   return shot.summary.status == Status::infeasible ? kNoSolution : kSolved;
 }
 
 }  // namespace
 
-Command add_stage(CLI::App& app) {
+Command add_stage(CLI::App& app, const std::string& shell_command) {
   auto args = std::make_shared<Arguments>();
+  args->shell_command = shell_command;
   CLI::App* sub = app.add_subcommand("stage", "Combine reconstructed collisions into a new shot");
   sub->add_option("LIST", args->inputs, "a shot list (TOML), or results of unseen collision, which then happen side by side");
   sub->add_option("-o", args->out, "the folder for the new shot; made if it does not exist")->type_name("OUT");
+  sub->add_flag("--no-report", args->no_report, "leave out report.html");
   add_flags(*sub, args->common);
   sub->footer("Examples:\n  unseen stage list.toml -o shot\n  unseen stage out1 out2 out3 -o shot");
   return {sub, [args] { return run(*args); }};

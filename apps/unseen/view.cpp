@@ -30,6 +30,7 @@
 #include "unseen/report/interactions_take.h"
 #include "unseen/report/page.h"
 #include "unseen/report/planes_scene.h"
+#include "unseen/report/stage_files.h"
 #include "write_text.h"
 
 extern char** environ;
@@ -156,6 +157,15 @@ Shown interactions_result(const std::filesystem::path& folder, const report::Sto
   return {report::interactions_title(run.input), report::interactions_scene(r, run.input, table, command, takes, picture)};
 }
 
+Shown stage_result(const std::filesystem::path& folder, const report::StoredRun& run) {
+  const collision::StagedShot shot = report::read_stage_result(folder / "result.json");
+  std::vector<std::string> words = {"unseen", "stage", run.input.path};
+  if (std::filesystem::path(run.input.path).extension() != ".toml")  // results side by side, of which the first is the input
+    for (std::size_t i = 1; i < shot.placements.size(); ++i) words.push_back(shot.placements[i].file);
+  words.insert(words.end(), {"-o", folder.string()});
+  return {report::stage_title(run.input), report::stage_scene(shot, run.input, shell_command(words))};
+}
+
 Shown read_result(const std::string& out, Context& context) {
   const std::filesystem::path folder(out), file = folder / "result.json";
   if (!std::filesystem::is_directory(folder)) throw InputError(out, "folder", "none", "the folder of a result");
@@ -165,7 +175,8 @@ Shown read_result(const std::string& out, Context& context) {
   if (run.capability == "cuboids") return cuboids_result(folder, run, context);
   if (run.capability == "collision") return collision_result(folder, run, context);
   if (run.capability == "interactions") return interactions_result(folder, run, context);
-  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\", \"cuboids\", \"collision\" or \"interactions\"");
+  if (run.capability == "stage") return stage_result(folder, run);
+  throw InputError(file.string(), "capability", '"' + run.capability + '"', "\"planes\", \"cuboids\", \"collision\", \"interactions\" or \"stage\"");
 }
 
 /// Shows a file in what the desktop opens pages with.

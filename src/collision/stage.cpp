@@ -28,6 +28,9 @@ StagedShot stage(const StagePlan& plan, Context& context) {
   for (const CastActor& actor : cast.actors) shot.actors.push_back(actor.actor);
   shot.walls = cast.walls;
   shot.placements = cast.placements;
+  const Reconstruction& first = plan.collisions.front().result;
+  shot.camera = first.camera;
+  shot.T_world_camera = shot.placements.front().T_new_filmed * first.T_world_camera;
   shot.summary.counts = {{"bodies", shot.actors.size()}, {"impacts", shot.impacts.size()}, {"frames", shot.frames.size()}};
   shot.summary.warnings = context.take_warnings();
   return shot;

@@ -121,7 +121,7 @@ void add_collision(Cast& cast, const StagePlan& plan, int index, Context& contex
   }
   cast.pairs.push_back(pair);
   for (std::size_t i = static_cast<std::size_t>(first); i < cast.actors.size(); ++i) cast.actors[i].impact.time = c.time;
-  cast.placements.push_back({});
+  cast.placements.push_back({c.name, c.file, c.time, {}, 0, {}});
   if (c.result.drag) context.warn(fmt::format("{}: the new shot has no air drag", c.name));
 }
 
@@ -164,7 +164,9 @@ void place(Cast& cast, const StagePlan& plan, int collision, const Vec3& transla
   Placement& at = cast.placements[static_cast<std::size_t>(collision)];
   const Vec3& center = plan.collisions[static_cast<std::size_t>(collision)].result.impacts.front().contact_point;
   const RigidTransform T = about_vertical(center, turn, translate), change = T * at.T_new_filmed.inverse();
-  at = {translate, turn, T};
+  at.translate = translate;
+  at.turn = turn;
+  at.T_new_filmed = T;
   for (CastActor& a : cast.actors)
     if (a.collision == collision) move(a.impact, change);
   for (CastPair& pair : cast.pairs)

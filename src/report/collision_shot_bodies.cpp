@@ -34,6 +34,8 @@ void read_mesh(Body& body, const JsonField& json, const std::filesystem::path& p
                      fmt::format("{} to {} m; meshes are taken as metres", kSmallest, kLargest));
 }
 
+}  // namespace
+
 void read_shape(Body& body, const JsonField& json, const std::filesystem::path& folder) {
   if (json.has("mesh")) {
     read_mesh(body, json["mesh"], io::named_file(json, "mesh", folder));
@@ -52,8 +54,6 @@ void read_shape(Body& body, const JsonField& json, const std::filesystem::path& 
     if (!json["fixed"].truth()) json["fixed"].fail("true; a body that moves has mesh, box, sphere or size");
   }
 }
-
-}  // namespace
 
 Vec3 read_direction(const JsonField& json) {
   const Vec3 v = json.vector();

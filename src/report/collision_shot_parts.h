@@ -15,6 +15,9 @@ using io::JsonField;
 /// Three numbers that are not all 0, made a unit vector.
 Vec3 read_direction(const JsonField& json);
 
+/// "mesh", "box", "sphere", "size" or "fixed", whichever there is.
+void read_shape(collision::Body& body, const JsonField& json, const std::filesystem::path& folder);
+
 /// An entry of "bodies"; `folder` is what a mesh's path is relative to.
 collision::Body read_body(const JsonField& json, const std::filesystem::path& folder);
 

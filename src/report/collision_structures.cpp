@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "report/collision_motion.h"
-#include "unseen/collision/body_mesh.h"
+#include "report/moving_bodies.h"
 
 namespace unseen::report {
 namespace {
@@ -19,28 +18,10 @@ using namespace collision;
 
 constexpr int kHues = 8;  // of labels: from the ninth on they repeat lighter and darker, so that a body's flights have one hue
 
-std::vector<std::array<int, 3>> triangles_of(const TriangleMesh& mesh) {
-  std::vector<std::array<int, 3>> triangles;
-  for (const auto& t : mesh.triangles) triangles.push_back({static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
-  return triangles;
-}
-
-Json ball(double diameter) { return {{"kind", "sphere"}, {"size", {number(diameter), number(diameter), number(diameter)}}}; }
-
-/// The shape of a body for a trajectory; a mesh becomes a structure of its own, out of sight.
+/// The shape of a body; without the shot a ball of the same inertia.
 Json shape_of(SceneBuilder& scene, const Shot& shot, const Reconstruction& r, std::size_t b) {
-  const BodyResult* result = b < r.bodies.size() ? &r.bodies[b] : nullptr;
-  if (b >= shot.bodies.size()) return ball(2.0 * std::sqrt(2.5 * (result ? result->inertia.mean() : 1e-3)));
-  const Body& body = shot.bodies[b];
-  if (body.shape == Shape::box) return {{"kind", "box"}, {"size", vector_of(body.box)}};
-  if (body.shape != Shape::mesh) return ball(largest_extent(body));
-  const TriangleMesh mesh = body_mesh(body, shot.name);
-  const std::string id = fmt::format("mesh-{}", b);
-  Json& structure = scene.add("mesh", id, fmt::format("Mesh of {}", body.name));
-  structure["visible"] = false;
-  structure["vertices"] = scene.vectors(mesh.vertices);
-  structure["triangles"] = scene.triples(triangles_of(mesh));
-  return {{"kind", "mesh"}, {"mesh", id}};
+  if (b < shot.bodies.size()) return shape_of(scene, shot.bodies[b], b);
+  return ball_shape(2.0 * std::sqrt(2.5 * (b < r.bodies.size() ? r.bodies[b].inertia.mean() : 1e-3)));
 }
 
 /// Pixels between where a body was seen and where the solution has it, by frame.
@@ -54,50 +35,16 @@ std::map<int, double> distances(const Reconstruction& r, int body) {
 }  // namespace
 
 void add_bodies(SceneBuilder& scene, const Shot& shot, const Reconstruction& r) {
-  std::vector<Motion> motions;
-  Json shapes = Json::array();
-  std::vector<std::string> names;
-  std::vector<int> own;
-  std::set<double> all_times;
+  std::vector<Moving> bodies;
   for (int b = 0; b < 2; ++b) {
     Motion motion = motion_of(r, b, shot.gravity);
-    if (motion.times.empty()) continue;
-    all_times.insert(motion.times.begin(), motion.times.end());
-    shapes.push_back(shape_of(scene, shot, r, static_cast<std::size_t>(b)));
-    motions.push_back(std::move(motion));
-    names.push_back(name_of(r, b));
-    own.push_back(b);
+    if (!motion.times.empty()) bodies.push_back({name_of(r, b), b, std::move(motion), shape_of(scene, shot, r, static_cast<std::size_t>(b))});
   }
-  if (motions.empty()) return;
-  std::vector<float> times(all_times.begin(), all_times.end()), rotations;
-  std::vector<Vec3> positions;
-  for (const Motion& motion : motions)
-    for (const double t : all_times) {
-      positions.push_back(motion.position(t));
-      const Quat q = motion.rotation(t);
-      for (const double c : {q.w(), q.x(), q.y(), q.z()}) rotations.push_back(static_cast<float>(c));
-    }
-  Json& bodies = scene.add("trajectory", "bodies", "Bodies");
-  bodies["times"] = scene.scalars(times);
-  bodies["positions"] = scene.positions(positions);
-  bodies["rotations"] = scene.quaternions(rotations);
-  bodies["shapes"] = std::move(shapes);
-  Json label = quantity("body", "Body", "label", scene.integers(own));
-  label["names"] = names;
-  bodies["quantities"].push_back(label);
-  scene.header["time"] = {{"start", number(times.front())}, {"end", number(times.back())}};
-  constexpr double kShortest = 4.0;  // s: what is over sooner is played in slow motion
-  const double duration = times.back() - times.front();
-  if (duration < kShortest) scene.header["time"]["rate"] = number(duration / kShortest);
+  add_moving(scene, bodies);
 }
 
 void add_fixed(SceneBuilder& scene, const Shot& shot, const Reconstruction& r) {
-  const std::vector<Vec3> quad = fixed_quad(shot, r);
-  if (quad.empty()) return;
-  Json& floor = scene.add("mesh", "fixed", r.fixed.empty() ? "floor" : r.fixed);
-  floor["vertices"] = scene.positions(quad);
-  const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {0, 2, 3}};
-  floor["triangles"] = scene.triples(triangles);
+  add_quad(scene, "fixed", r.fixed.empty() ? "floor" : r.fixed, fixed_quad(shot, r));
 }
 
 void add_flights(SceneBuilder& scene, const Reconstruction& r, double gravity) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/collision_parts.h"
+#include "report/stage_motion.h"
 #include "unseen/collision/body_mesh.h"
 #include "unseen/report/collision_truth.h"
 #include "unseen/report/stage_files.h"
@@ -29,9 +30,8 @@ Json actor_json(const StagedShot& shot, std::size_t i) {
 }
 
 Json impact_json(const StagedShot& shot, const StagedImpact& i) {
-  const auto name = [&](int k) { return k >= 0 ? shot.actors.at(static_cast<std::size_t>(k)).name : shot.walls.at(static_cast<std::size_t>(-1 - k)).name; };
   return {{"time", number(i.time)},
-          {"between", {name(i.between[0]), name(i.between[1])}},
+          {"between", {staged_name(shot, i.between[0]), staged_name(shot, i.between[1])}},
           {"restitution", number(i.restitution)},
           {"expected", number(i.expected)},
           {"approach", number(i.approach)},
@@ -39,10 +39,18 @@ Json impact_json(const StagedShot& shot, const StagedImpact& i) {
           {"normal", vector_of(i.normal)}};
 }
 
-Json collision_json(const StagedCollision& c, const Placement& at) {
-  Json json = {{"name", c.name}, {"time", number(c.time)}, {"translate", vector_of(at.translate)}, {"rotate_z_deg", degrees_of(at.turn)}};
-  json["T_new_filmed"] = matrix_of(at.T_new_filmed);
-  return json;
+Json placement_json(const Placement& at) {
+  return {{"name", at.name},
+          {"result", at.file},
+          {"time", number(at.time)},
+          {"translate", vector_of(at.translate)},
+          {"rotate_z_deg", degrees_of(at.turn)},
+          {"T_new_filmed", matrix_of(at.T_new_filmed)}};
+}
+
+Json wall_json(const StagedShot& shot, const Wall& w) {
+  const Json collision = w.collision < 0 ? Json(nullptr) : Json(shot.placements.at(static_cast<std::size_t>(w.collision)).name);
+  return {{"name", w.name}, {"collision", collision}, {"normal", vector_of(w.plane.normal)}, {"offset", number(w.plane.offset)}};
 }
 
 Json frame_json(const StagedFrame& f) {
@@ -61,15 +69,15 @@ std::string actor_obj(const StagedShot& shot, std::size_t actor) {
   return body_obj(body);
 }
 
-std::string stage_json(const StagePlan& plan, const StagedShot& shot, const InputRecord& input) {
+std::string stage_json(const StagedShot& shot, const InputRecord& input) {
   Json json = result_header("stage", input, {}, shot.summary);
+  json["T_world_camera"] = matrix_of(shot.T_world_camera);
+  json["camera"] = camera_of(shot.camera);
   json["fps"] = number(shot.fps);
   json["gravity"] = number(shot.gravity);
-  json["collisions"] = list_of(plan.collisions, [&](const StagedCollision& c, std::size_t i) { return collision_json(c, shot.placements.at(i)); });
+  json["collisions"] = list_of(shot.placements, [](const Placement& at, std::size_t) { return placement_json(at); });
   json["bodies"] = list_of(shot.actors, [&](const Actor&, std::size_t i) { return actor_json(shot, i); });
-  json["walls"] = list_of(shot.walls, [](const Wall& w, std::size_t) -> Json {
-    return {{"name", w.name}, {"normal", vector_of(w.plane.normal)}, {"offset", number(w.plane.offset)}};
-  });
+  json["walls"] = list_of(shot.walls, [&](const Wall& w, std::size_t) { return wall_json(shot, w); });
   json["impacts"] = list_of(shot.impacts, [&](const StagedImpact& i, std::size_t) { return impact_json(shot, i); });
   json["frames"] = list_of(shot.frames, [](const StagedFrame& f, std::size_t) { return frame_json(f); });
   return text_of(json);

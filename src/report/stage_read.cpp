@@ -39,6 +39,7 @@ StagedCollision read_collision(const fs::path& result, const fs::path& shot) {
   const fs::path file = result_file(result), folder = fs::absolute(file).lexically_normal().parent_path();
   if (!fs::is_regular_file(file)) throw InputError(file.string(), "file", "none", "the result of unseen collision");
   c.name = file.filename() == "result.json" ? folder.filename().string() : file.stem().string();
+  c.file = file.string();
   c.result = read_collision_result(file);
   c.shot = shot_of(file, shot);
   if (c.result.impacts.empty()) throw InputError(file.string(), "impacts", "none", "a result with a collision");

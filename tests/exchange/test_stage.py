@@ -14,6 +14,8 @@ import unittest
 import jsonschema
 import numpy
 
+from scene import scenes_of
+
 HERE = pathlib.Path(__file__).parent
 ROOT = pathlib.Path(os.environ["UNSEEN_SOURCE_DIR"])
 SHOT = {"observations": "observations.json", "fps": 120, "camera": {"fx": 900, "fy": 900, "cx": 319.5, "cy": 239.5, "width": 640, "height": 480},
@@ -98,6 +100,60 @@ class Staging(unittest.TestCase):
             for frame in self.result["frames"]:
                 nearest = min(found, key=lambda t: abs(t - 120 * frame["t"]))
                 self.assertLess(numpy.abs(numpy.array(found[nearest]) - frame["bodies"][i]["p"]).max(), 1e-9)
+
+    def view(self, *inputs):
+        return subprocess.run([os.environ["UNSEEN"], "view", *inputs], cwd=self.folder, capture_output=True, text=True, timeout=120)
+
+    def test_the_page_moves_the_bodies_as_the_result_says(self):
+        scene, = scenes_of(self.folder / "shot/report.html")
+        self.assertEqual(scene.header["command"], "unseen stage list.toml -o shot")
+        self.assertEqual(scene.header["summary"], self.result["summary"])
+        bodies = scene["bodies"]
+        times, frames = scene.array(bodies["times"])[:, 0], self.result["frames"]
+        self.assertLess(numpy.abs(times - [f["t"] for f in frames]).max(), 1e-6)
+        shown = scene.array(bodies["positions"]).reshape(len(self.result["bodies"]), len(frames), 3) + scene.header["offset"]
+        given = numpy.array([[f["bodies"][i]["p"] for f in frames] for i in range(len(self.result["bodies"]))])
+        self.assertLess(numpy.abs(shown - given).max(), 1e-5)
+        table, = (t for t in scene.header["tables"] if t["title"] == "Impacts")
+        self.assertEqual([row[:3] for row in table["rows"]], [[i["time"], *i["between"]] for i in self.result["impacts"]])
+
+    def test_view_writes_the_same_page_again(self):
+        run = self.view("shot", "-o", "again.html")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        page, = scenes_of(self.folder / "shot/report.html")
+        again, = scenes_of(self.folder / "again.html")
+        self.assertEqual(page.header["facts"], again.header["facts"])
+        self.assertEqual(page.header["tables"], again.header["tables"])
+        self.assertEqual(page.header["command"], again.header["command"])
+        for name in ("positions", "rotations"):
+            self.assertLess(numpy.abs(page.array(page["bodies"][name]) - again.array(again["bodies"][name])).max(), 1e-6)
+        mesh, same = (s.array(s["mesh-5"]["vertices"]) for s in (page, again))
+        self.assertLess(numpy.abs(mesh - same).max(), 1e-6)
+
+    def test_results_side_by_side_have_a_page_too(self):
+        for name in "xy":
+            (self.folder / name).mkdir()
+            result = json.loads((self.folder / "two/result.json").read_text())
+            result["input"]["path"] = "../shot.json"
+            (self.folder / name / "result.json").write_text(json.dumps(result))
+        subprocess.run([os.environ["UNSEEN"], "stage", "x", "y", "-o", "side"], cwd=self.folder, capture_output=True, check=True, timeout=120)
+        self.view("side", "-o", "side.html").check_returncode()
+        scene, = scenes_of(self.folder / "side.html")
+        self.assertEqual(scene.header["command"], "unseen stage x y/result.json -o side")
+
+    def test_view_of_a_bad_shot_gives_one_line(self):
+        text = (self.folder / "shot/result.json").read_text()
+        (self.folder / "spoilt").mkdir()
+        shutil.copy(self.folder / "shot/actor-5.obj", self.folder / "spoilt")
+        for change, words in ((("one.box", "uno.box"), "between"), (('"mesh": "actor-5', '"mesh": "actor-9'), "actor-9"), (('"sphere"', '"cone"'), "bodies[1]"),
+                              (("9.81", "-9.81"), "gravity")):
+            spoilt = text.replace(*change, 1)
+            self.assertNotEqual(spoilt, text)
+            (self.folder / "spoilt/result.json").write_text(spoilt)
+            run = self.view("spoilt")
+            self.assertEqual(run.returncode, 3, run.stderr)
+            self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+            self.assertIn(words, run.stderr)
 
     def test_bad_lists_give_one_line(self):
         for change, words in ((("time = 0.4", "tme = 0.4"), "tme"), (("two.ball", "tow.ball"), "tow.ball"), (("time = 0.8", "time = 0.45"), "meet[0]"),

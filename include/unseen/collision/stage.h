@@ -15,6 +15,7 @@ namespace unseen::collision {
 /// A reconstructed collision at its place in a new shot.
 struct StagedCollision {
   std::string name;
+  std::string file;  ///< its result.json
   Shot shot;  ///< of which bodies and gravity count
   Reconstruction result;
   std::array<std::optional<Body>, 2> swaps;  ///< other shapes for its bodies; the mass stays
@@ -85,6 +86,8 @@ struct StagedFrame {
 
 /// Where a collision came to lie: what was asked for, or what a meeting needed.
 struct Placement {
+  std::string name, file;  ///< of the StagedCollision
+  double time = 0;  ///< s
   Vec3 translate = Vec3::Zero();
   double turn = 0;  ///< rad
   RigidTransform T_new_filmed;  ///< maps the world of its result to the new shot's
@@ -93,6 +96,8 @@ struct Placement {
 /// The new shot. World: z up.
 struct StagedShot {
   double fps = 0, gravity = 0;
+  Camera camera;                  ///< that of the first collision, and where it came to stand
+  RigidTransform T_world_camera;
   std::vector<Actor> actors;
   std::vector<Wall> walls;
   std::vector<Placement> placements;  ///< of each collision

@@ -22,11 +22,21 @@ collision::StagePlan stage_side_by_side(const std::vector<std::string>& results)
 std::string actor_file(const collision::StagedShot& shot, std::size_t actor);
 std::string actor_obj(const collision::StagedShot& shot, std::size_t actor);
 
-/// result.json of `unseen stage`: bodies, impacts, poses at each frame.
-std::string stage_json(const collision::StagePlan& plan, const collision::StagedShot& shot, const InputRecord& input);
+/// result.json of `unseen stage` (docs/formats.md, docs/schema/stage.schema.json): bodies, impacts, poses at each frame.
+std::string stage_json(const collision::StagedShot& shot, const InputRecord& input);
+
+/// Reads such a file back, with the meshes beside it. Velocities of `frames` are not stored and come back as 0. Throws InputError naming
+/// file and field.
+collision::StagedShot read_stage_result(const std::filesystem::path& path);
+
+/// The shot as a scene of the page (docs/scene.md); `command` made it.
+std::string stage_scene(const collision::StagedShot& shot, const InputRecord& input, const std::string& command);
+
+/// "Shot staged from list.toml"
+std::string stage_title(const InputRecord& input);
 
 /// scene.glb as that of a collision, with the camera of the first one.
-std::string stage_glb(const collision::StagePlan& plan, const collision::StagedShot& shot);
+std::string stage_glb(const collision::StagedShot& shot);
 
 /// The same animation as USD ASCII: a time code a frame.
 std::string stage_usda(const collision::StagedShot& shot);
