@@ -6,10 +6,9 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "evaluate.h"
 #include "unseen/collision/evaluate.h"
 #include "unseen/core/error.h"
-#include "unseen/io/add_to_result.h"
 #include "unseen/report/collision_evaluation.h"
 #include "unseen/report/collision_result.h"
 #include "unseen/report/collision_truth.h"
@@ -31,9 +30,8 @@ int run(Arguments& args) {
   require(args.truth, "--truth TRUTH");
 
   Session session(args.common);
-  Context& context = session.context;
 
-  const fs::path file = fs::is_directory(args.result) ? fs::path(args.result) / "result.json" : fs::path(args.result);
+  const fs::path file = result_file(args.result);
   const collision::Reconstruction result = report::read_collision_result(file);
   const collision::Truth truth = report::read_collision_truth(args.truth);
   report::CollisionEvaluation e;
@@ -45,15 +43,7 @@ int run(Arguments& args) {
   } catch (const InputError& error) {
     throw InputError(error.source == "result" ? file.string() : args.truth, error.field, error.found, error.expected);
   }
-  context.check();
-  const std::string json = report::evaluation_json(e);
-  io::add_to_result(file.parent_path(), "evaluation.json", json);
-  session.progress.clear();
-  if (args.common.json) {
-    fmt::print("{}", json);
-  } else if (!args.common.quiet) {
-    fmt::print("{}", report::evaluation_table(e));
-  }
+  publish(e, file.parent_path(), args.common, session);
   return kSolved;
 }
 

@@ -6,9 +6,8 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "evaluate.h"
 #include "unseen/cuboids/evaluate.h"
-#include "unseen/io/add_to_result.h"
 #include "unseen/report/cuboids_evaluation.h"
 #include "unseen/report/cuboids_result.h"
 #include "unseen/report/cuboids_truth.h"
@@ -49,7 +48,7 @@ int run(Arguments& args) {
   Session session(args.common);
   Context& context = session.context;
 
-  const fs::path file = fs::is_directory(args.result) ? fs::path(args.result) / "result.json" : fs::path(args.result);
+  const fs::path file = result_file(args.result);
   const cuboids::Completion result = report::read_cuboids_result(file);
   const cuboids::Truth truth = read_truth(args);
   report::CuboidsEvaluation e;
@@ -61,16 +60,7 @@ int run(Arguments& args) {
     const Stage stage(context, summary, "evaluate");
     e.scores = cuboids::evaluate(result, truth, args.options, context);
   }
-  context.check();
-  const std::string json = report::evaluation_json(e);
-  io::add_to_result(file.parent_path(), "evaluation.json", json);
-  session.progress.clear();
-  session.progress.warn(context.take_warnings());
-  if (args.common.json) {
-    fmt::print("{}", json);
-  } else if (!args.common.quiet) {
-    fmt::print("{}", report::evaluation_table(e));
-  }
+  publish(e, file.parent_path(), args.common, session);
   return kSolved;
 }
 

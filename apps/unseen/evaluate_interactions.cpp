@@ -7,9 +7,8 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "evaluate.h"
 #include "unseen/core/error.h"
-#include "unseen/io/add_to_result.h"
 #include "unseen/report/interactions_evaluation.h"
 #include "unseen/report/interactions_recording.h"
 #include "unseen/report/interactions_result.h"
@@ -41,9 +40,8 @@ int run(Arguments& args) {
   require(args.truth, "--truth SCENE");
 
   Session session(args.common);
-  Context& context = session.context;
 
-  const fs::path file = fs::is_directory(args.result) ? fs::path(args.result) / "result.json" : fs::path(args.result);
+  const fs::path file = result_file(args.result);
   const interactions::Recording truth = read_truth(args);
   report::InteractionsEvaluation e;
   e.result_path = args.original.empty() ? args.result : args.original;
@@ -51,15 +49,7 @@ int run(Arguments& args) {
   e.scene = truth.name;
   e.scores = interactions::evaluate(
       args.original.empty() ? report::read_interactions_result(file) : report::read_original_result(args.original, truth), truth);
-  context.check();
-  const std::string json = report::evaluation_json(e);
-  if (args.original.empty()) io::add_to_result(file.parent_path(), "evaluation.json", json);
-  session.progress.clear();
-  if (args.common.json) {
-    fmt::print("{}", json);
-  } else if (!args.common.quiet) {
-    fmt::print("{}", report::evaluation_table(e));
-  }
+  publish(e, args.original.empty() ? file.parent_path() : fs::path(), args.common, session);
   return kSolved;
 }
 

@@ -6,9 +6,8 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "evaluate.h"
 #include "unseen/core/error.h"
-#include "unseen/io/add_to_result.h"
 #include "unseen/io/mesh.h"
 #include "unseen/io/points.h"
 #include "unseen/planes/evaluate.h"
@@ -73,7 +72,7 @@ std::vector<Plane> infinite_planes(const planes::Arrangement& arrangement) {
 }
 
 Scored read_result(const fs::path& path) {
-  const fs::path file = fs::is_directory(path) ? path / "result.json" : path;
+  const fs::path file = result_file(path);
   Scored scored;
   scored.arrangement = report::read_planes_result(file);
   scored.planes = infinite_planes(scored.arrangement);
@@ -158,17 +157,7 @@ int run(Arguments& args) {
     const Stage stage(context, summary, "evaluate");
     compare(scored, args, e, context);
   }
-  context.check();
-  const fs::path folder =
-      fs::is_directory(args.result) ? fs::path(args.result) : fs::path(args.result).parent_path();
-  const std::string json = report::evaluation_json(e);
-  io::add_to_result(folder, "evaluation.json", json);
-  session.progress.clear();
-  if (args.common.json) {
-    fmt::print("{}", json);
-  } else if (!args.common.quiet) {
-    fmt::print("{}", report::evaluation_table(e));
-  }
+  publish(e, result_file(args.result).parent_path(), args.common, session);
   return kSolved;
 }
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "synth.h"
 #include "unseen/collision/synth.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/write_video.h"
@@ -62,17 +62,11 @@ int run(Arguments& args) {
     write_texts(scene, table, out);
   }
   summary.counts = {{"frames", scene.truth.frames.size()}, {"impacts", scene.truth.impacts.size()}};
-  summary.warnings = context.take_warnings();
-  context.check();
-  session.progress.warn(summary.warnings);
-  session.progress.warn(out.commit());
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(summary));
-  } else if (!args.common.quiet) {
-    const auto& restitution = scene.truth.restitution;
-    fmt::print("{} frames of {} impacts{}\nwritten: {}\n", scene.truth.frames.size(), scene.truth.impacts.size(),
-               restitution ? fmt::format(", restitution {:.3f}", *restitution) : "", args.out);
-  }
+  const auto& restitution = scene.truth.restitution;
+  publish(summary,
+          fmt::format("{} frames of {} impacts{}", scene.truth.frames.size(), scene.truth.impacts.size(),
+                      restitution ? fmt::format(", restitution {:.3f}", *restitution) : ""),
+          out, args.out, args.common, session);
   return kSolved;
 }
 

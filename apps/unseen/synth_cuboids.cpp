@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "synth.h"
 #include "unseen/cuboids/synth.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/write_png.h"
@@ -60,16 +60,8 @@ int run(Arguments& args) {
   const cuboids::Truth& truth = scene.views.front().truth;
   summary.counts = {
       {"views", scene.views.size()}, {"cuboids", truth.cuboids.size()}, {"contacts", truth.contacts.size()}};
-  summary.warnings = context.take_warnings();
-  context.check();
-  session.progress.warn(summary.warnings);
-  session.progress.warn(out.commit());
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(summary));
-  } else if (!args.common.quiet) {
-    fmt::print("{} views of {} boxes with {} contacts\nwritten: {}\n", scene.views.size(), truth.cuboids.size(),
-               truth.contacts.size(), args.out);
-  }
+  publish(summary, fmt::format("{} views of {} boxes with {} contacts", scene.views.size(), truth.cuboids.size(), truth.contacts.size()), out, args.out, args.common,
+          session);
   return kSolved;
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "synth.h"
 #include "unseen/interactions/synth.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/report/interactions_truth.h"
@@ -52,15 +52,10 @@ int run(Arguments& args) {
   const interactions::Recording& truth = synth.truth;
   summary.counts = {{"frames", truth.people.at(0).size()}, {"people", truth.people.size()}, {"objects", truth.objects.size()},
                     {"interacted", truth.interacted.size()}};
-  summary.warnings = context.take_warnings();
-  context.check();
-  session.progress.warn(out.commit());
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(summary));
-  } else if (!args.common.quiet) {
-    fmt::print("{} frames of {} {}, {} of {} objects used\nwritten: {}\n", truth.people.at(0).size(), truth.people.size(),
-               truth.people.size() == 1 ? "person" : "people", truth.interacted.size(), truth.objects.size(), args.out);
-  }
+  publish(summary,
+          fmt::format("{} frames of {} {}, {} of {} objects used", truth.people.at(0).size(), truth.people.size(), truth.people.size() == 1 ? "person" : "people",
+                      truth.interacted.size(), truth.objects.size()),
+          out, args.out, args.common, session);
   return kSolved;
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "commands.h"
-#include "session.h"
+#include "synth.h"
 #include "unseen/io/output_folder.h"
 #include "unseen/io/write_points.h"
 #include "unseen/planes/synth.h"
@@ -47,16 +47,8 @@ int run(Arguments& args) {
   }
   summary.counts = {
       {"points", scene.cloud.size()}, {"planes", scene.planes.size()}, {"frames", scene.axes.size()}};
-  summary.warnings = context.take_warnings();
-  context.check();
-  session.progress.warn(summary.warnings);
-  session.progress.warn(out.commit());
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(summary));
-  } else if (!args.common.quiet) {
-    fmt::print("{} points on {} planes in {} orientation frames\nwritten: {}\n", scene.cloud.size(),
-               scene.planes.size(), scene.axes.size(), args.out);
-  }
+  publish(summary, fmt::format("{} points on {} planes in {} orientation frames", scene.cloud.size(), scene.planes.size(), scene.axes.size()), out, args.out,
+          args.common, session);
   return kSolved;
 }
 
