@@ -10,26 +10,10 @@
 namespace unseen::cuboids {
 namespace {
 
-bool stands(const Problem& problem, const Choice& choice, const Arrangement& arrangement) {
-  const Structure s = structure_of(problem, arrangement, touching_pairs(problem, arrangement), choice.held);
-  return balance(s.bodies, s.contacts).residual < problem.stable_residual;
-}
-
-/// Whether a body is held, or rigid with one that is, and not with a support.
-bool hangs_in_the_air(const Problem& problem, const Structure& structure, const std::vector<char>& held, int body) {
-  bool is_held = false;
-  for (int other = 0; other < problem.bodies(); ++other) {
-    if (structure.group[other] != structure.group[body]) continue;
-    if (problem.is_support(other)) return false;
-    is_held |= held[other] != 0;
-  }
-  return is_held;
-}
-
 /// Writes the chosen arrangement into the result.
-void describe(const Problem& problem, const Choice& choice, const Arrangement& arrangement, Completion& result) {
+void describe(const Problem& problem, const std::vector<char>& held, const Arrangement& arrangement, Completion& result) {
   const std::vector<Touch> touches = touching_pairs(problem, arrangement);
-  const Structure structure = structure_of(problem, arrangement, touches, choice.held);
+  const Structure structure = structure_of(problem, arrangement, touches, held);
   const Balance b = balance(structure.bodies, structure.contacts);
   const auto id = [&](int body) { return problem.is_support(body) ? problem.supports[body].id : problem.cuboid(body).id; };
   for (std::size_t i = 0; i < result.cuboids.size(); ++i) result.cuboids[i].box = arrangement.boxes[i];
@@ -61,8 +45,9 @@ void describe(const Problem& problem, const Choice& choice, const Arrangement& a
     const int t = structure.touch_of_contact[p];
     if (contact_of_touch[t] >= 0) result.contacts[contact_of_touch[t]].forces[next[t]++] = b.forces[p];
   }
+  const std::vector<char> hangs = hanging(problem, arrangement, held);
   for (int i = problem.supports_count(); i < problem.bodies(); ++i)
-    if (hangs_in_the_air(problem, structure, choice.held, i)) result.unsupported.push_back(id(i));
+    if (hangs[i]) result.unsupported.push_back(id(i));
   result.fixed_contacts = static_cast<int>(arrangement.fixed.size());
   result.extended_volume = 0.0;
   for (const Cuboid& cuboid : result.cuboids)  // a face that was seen may have moved inwards, within noise
@@ -76,6 +61,11 @@ void describe(const Problem& problem, const Choice& choice, const Arrangement& a
 }
 
 }  // namespace
+
+bool stands(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held) {
+  const Structure s = structure_of(problem, arrangement, touching_pairs(problem, arrangement), held);
+  return balance(s.bodies, s.contacts).residual < problem.stable_residual;
+}
 
 void complete_boxes(const RgbdFrame& frame, const Options& options, Context& context, Completion& result) {
   Summary& summary = result.summary;
@@ -123,13 +113,14 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   Arrangement arrangement = arrange(problem, choice.chosen);
   for (const FaceMove& move : legs_to_their_plates(problem, rooms, arrangement)) {
     Arrangement longer = with_face(problem, arrangement, move.body - problem.supports_count(), move.face, move.length);
-    if (!penetrates(problem, longer) && admissible(longer) && stands(problem, choice, longer)) arrangement = std::move(longer);
+    if (!penetrates(problem, longer) && admissible(longer) && stands(problem, longer, choice.held)) arrangement = std::move(longer);
   }
   Arrangement closed = arrangement;
   close_contacts(problem, touching_pairs(problem, arrangement), closed);
-  if (stands(problem, choice, closed) || !stands(problem, choice, arrangement)) arrangement = std::move(closed);
+  if (stands(problem, closed, choice.held) || !stands(problem, arrangement, choice.held)) arrangement = std::move(closed);
+  link_hanging(problem, view, choice.held, arrangement, context);
   lower_residual(problem, rooms, admissible, choice.held, arrangement, context);
-  describe(problem, choice, arrangement, result);
+  describe(problem, choice.held, arrangement, result);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {
     summary.status = Status::infeasible;

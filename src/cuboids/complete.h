@@ -42,6 +42,16 @@ std::vector<double> contact_tolerance(const DepthView& view, const std::vector<C
 /// Moves faces so that what touches touches exactly: hidden faces freely, seen ones as little as possible.
 void close_contacts(const Problem& problem, const std::vector<Touch>& touches, Arrangement& arrangement);
 
+/// Whether an arrangement is at rest, the `held` bodies (a mark a body) being firm.
+bool stands(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held);
+
+/// The bodies that are held, or rigid with one that is, and not with a support (a mark a body).
+std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held);
+
+/// What nothing can support is held by its neighbour all the same, if nobody could see the link and both still stand: a fixed contact,
+/// no longer than what hangs. Such bodies are no longer `held`.
+void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context);
+
 /// Lowers the residual, at rest and under the pushes, by moves of faces: hidden ones within their rooms, seen ones within
 /// noise (Eq. 4.4). Every step is one that `admissible` allows.
 void lower_residual(const Problem& problem, const Rooms& rooms, const Admissible& admissible, const std::vector<char>& held,
