@@ -113,9 +113,10 @@ int run(Arguments& args) {
   const cuboids::Completion c = cuboids::complete_cuboids(frame, args.options.method, context);
   if (c.summary.status == Status::cancelled) throw Cancelled();
   write_files(c, frame, args, table, out, context);
-  run_applications(args.applications, frame, c, out, context);
+  if (c.summary.status != Status::infeasible) run_applications(args.applications, frame, c, out, context);
   context.check();
   session.progress.warn(c.summary.warnings);
+  session.progress.warn(context.take_warnings());
   session.progress.warn(out.commit());
 
   if (args.common.json) {

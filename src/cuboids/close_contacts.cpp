@@ -10,14 +10,20 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kParallel = 0.99;       // cosine between a face's normal and that of a contact
+constexpr double kTowards = 0.7;         // cosine between a face's normal and that of a contact
 constexpr double kClosable = 2.0;        // tolerances
 constexpr double kHiddenFreedom = 100.0; // variance of a face that was moved, against 1 of a seen one
 
-/// The face of a box that a contact with outward normal `n` acts on; none if it is an edge or a vertex.
-std::optional<int> face_towards(const OrientedBox& box, const Vec3& n) {
+/// A variable of a row, and how far it moves the contact.
+struct Part {
+  int variable = -1;
+  double cosine = 0;
+};
+
+/// The face of a box that looks most along the outward normal `n` of a contact, which may be at its edge or corner.
+std::optional<Part> face_towards(const OrientedBox& box, const Vec3& n, int first_variable) {
   for (int face = 0; face < 6; ++face)
-    if (face_normal(box, face).dot(n) > kParallel) return face;
+    if (const double cosine = face_normal(box, face).dot(n); cosine > kTowards) return Part{first_variable + face, cosine};
   return std::nullopt;
 }
 
@@ -25,22 +31,24 @@ std::optional<int> face_towards(const OrientedBox& box, const Vec3& n) {
 
 void close_contacts(const Problem& problem, const std::vector<Touch>& touches, Arrangement& arrangement) {
   const int variables = 6 * static_cast<int>(problem.cuboids.size());
-  const auto index = [&](int body, int face) { return 6 * (body - problem.supports_count()) + face; };
   Eigen::VectorXd variance = Eigen::VectorXd::Ones(variables);
   for (std::size_t i = 0; i < arrangement.boxes.size(); ++i)
     for (int face = 0; face < 6; ++face)
       if (arrangement.extension[i][face] > 0.0) variance[6 * i + face] = kHiddenFreedom;
 
   // One row a contact: the two faces together must move by the gap.
-  std::vector<std::array<int, 2>> rows;
+  std::vector<std::array<Part, 2>> rows;
   std::vector<double> gaps;
   for (const Touch& touch : touches) {
     const Vec3& n = touch.interface.normal;
-    const auto on_b = face_towards(arrangement.boxes[touch.b - problem.supports_count()], -n);
-    const auto on_a = problem.is_support(touch.a) ? std::nullopt : face_towards(arrangement.boxes[touch.a - problem.supports_count()], n);
-    if (!on_b || (!problem.is_support(touch.a) && !on_a)) continue;
+    const auto face_of = [&](int body, const Vec3& outward) -> std::optional<Part> {
+      const int i = body - problem.supports_count();
+      return i < 0 ? Part{} : face_towards(arrangement.boxes[i], outward, 6 * i);
+    };
+    const auto on_a = face_of(touch.a, n), on_b = face_of(touch.b, -n);
+    if (!on_a || !on_b) continue;
     if (touch.interface.gap > kClosable * problem.pair_tolerance(touch.a, touch.b)) continue;
-    rows.push_back({on_a ? index(touch.a, *on_a) : -1, index(touch.b, *on_b)});
+    rows.push_back({*on_a, *on_b});
     gaps.push_back(touch.interface.gap);
   }
   if (rows.empty()) return;
@@ -48,11 +56,11 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(variables, count);  // variance · rowsᵀ
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
   for (int r = 0; r < count; ++r)
-    for (const int v : rows[r])
-      if (v >= 0) spread(v, r) = variance[v];
+    for (const Part& part : rows[r])
+      if (part.variable >= 0) spread(part.variable, r) = part.cosine * variance[part.variable];
   for (int r = 0; r < count; ++r)
-    for (const int v : rows[r])
-      if (v >= 0) normal.row(r) += spread.row(v);
+    for (const Part& part : rows[r])
+      if (part.variable >= 0) normal.row(r) += part.cosine * spread.row(part.variable);
   normal.diagonal().array() += 1e-6;  // contacts that contradict each other share the rest
   const Eigen::VectorXd moves = spread * normal.ldlt().solve(Eigen::Map<const Eigen::VectorXd>(gaps.data(), count));
   double volume = 0.0;

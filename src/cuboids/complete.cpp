@@ -89,6 +89,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     problem.cuboids = result.cuboids;
     problem.tolerance = tolerance;
     problem.joints = joints_of(problem);
+    part_overlaps(view, problem);
     rooms = find_rooms(view, problem.cuboids, tolerance);
     assume_thickness(view, rooms, problem);
     close_hidden_gaps(rooms, problem);
@@ -99,7 +100,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   const Admissible admissible = [&](const Arrangement& a) {
     for (std::size_t i = 0; i < a.boxes.size(); ++i)
       if (a.boxes[i].volume() > problem.cuboids[i].initial.volume() &&
-          !in_hidden_space(view, problem.cuboids[i].initial, a.boxes[i], problem.tolerance[i]))
+          !in_hidden_space(view, {&problem.cuboids[i].initial, 1}, a.boxes[i], problem.tolerance[i]))
         return false;
     return true;
   };
@@ -120,6 +121,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   if (stands(problem, closed, choice.held) || !stands(problem, arrangement, choice.held)) arrangement = std::move(closed);
   link_hanging(problem, view, choice.held, arrangement, context);
   lower_residual(problem, rooms, admissible, choice.held, arrangement, context);
+  join_overlaps(problem, arrangement);
   describe(problem, choice.held, arrangement, result);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {

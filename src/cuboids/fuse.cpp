@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -56,7 +57,7 @@ std::optional<OrientedBox> joined_object(const DepthView& view, const Cuboid& a,
     spans[k] = {std::min(first.low, second.low), std::max(first.high, second.high)};
   }
   const OrientedBox whole = box_of(larger.axes, spans);
-  return in_hidden_space(view, larger, whole, tolerance, kKnownObject) ? std::optional(whole) : std::nullopt;
+  return in_hidden_space(view, {&larger, 1}, whole, tolerance, kKnownObject) ? std::optional(whole) : std::nullopt;
 }
 
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
@@ -87,7 +88,12 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
   }
   if (apart < 0) return std::nullopt;
   const OrientedBox whole = box_of(axes, spans);
-  return in_hidden_space(view, a.initial, whole, tolerance) ? std::optional(whole) : std::nullopt;
+  const Span first = span_along(a.initial, axes.col(apart)), second = span_along(b.initial, axes.col(apart));
+  spans[apart] = {std::min(first.high, second.high), std::max(first.low, second.low)};
+  const bool is_gap = spans[apart].high > spans[apart].low;
+  if (is_gap && !in_hidden_space(view, {}, box_of(axes, spans), tolerance)) return std::nullopt;
+  const std::array parts = {a.initial, b.initial};
+  return in_hidden_space(view, parts, whole, tolerance) ? std::optional(whole) : std::nullopt;
 }
 
 }  // namespace

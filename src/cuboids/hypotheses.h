@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cuboids/depth_view.h"
@@ -27,8 +28,8 @@ bool is_covered(const DepthView& view, const OrientedBox& box, int face, double 
 std::vector<Hypothesis> propose_contacts(const Problem& problem, const Rooms& rooms);
 
 inline constexpr double kFreeShare = 0.05;  ///< of samples: speckle and edges of the depth image
-/// True if what a box adds to its initial one lies in space that the view does not prove free, but for a share of it.
-bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin,
+/// True if what a box adds to `known` ones lies in space that the view does not prove free, but for a share of it.
+bool in_hidden_space(const DepthView& view, std::span<const OrientedBox> known, const OrientedBox& box, double margin,
                      double share = kFreeShare);
 
 }  // namespace unseen::cuboids

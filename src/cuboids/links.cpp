@@ -11,6 +11,7 @@ namespace {
 
 constexpr int kProjections = 100;
 constexpr int kSamples = 9;          // along a link
+constexpr int kTrials = 200;         // links that may be tried
 constexpr double kFreeLink = 0.25;   // of them: speckle
 
 /// A way in which one body may hold another out of sight.
@@ -78,6 +79,7 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
 
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context) {
   std::vector<Link> links = links_of(problem, view, arrangement, hanging(problem, arrangement, held));
+  int trials = 0;
   for (bool changed = true; changed;) {
     changed = false;
     for (const Link& link : links) {
@@ -92,6 +94,7 @@ void link_hanging(const Problem& problem, const DepthView& view, std::vector<cha
       if (!hangs[link.a] || !hangs[link.b])  // the one that stands is to carry the other
         for (int i = problem.supports_count(); i < problem.bodies(); ++i)
           if (now.group[i] == now.group[hangs[link.a] ? link.a : link.b]) freed[i] = 0;
+      if (++trials > kTrials) return;
       if (!stands(problem, linked, freed)) continue;
       arrangement = std::move(linked);
       held = std::move(freed);

@@ -165,6 +165,7 @@ struct Matcher {
   }
 };
 
+/// None for a model without extent.
 std::vector<Vec3> finite_points(const RetrievalModel& model) {
   std::vector<Vec3> out;
   Extent extent;
@@ -173,8 +174,7 @@ std::vector<Vec3> finite_points(const RetrievalModel& model) {
       out.push_back(p);
       extent.add(p);
     }
-  if (out.size() < 4 || !(extent.size().maxCoeff() > 0.0) || !extent.size().allFinite())
-    throw InputError(model.name, "points", fmt::format("{} usable", out.size()), "a model with an extent");
+  if (out.size() < 4 || !(extent.size().maxCoeff() > 0.0) || !extent.size().allFinite()) out.clear();
   return out;
 }
 
@@ -222,12 +222,23 @@ Retrieval retrieve_models(const Completion& scene, const std::vector<RetrievalMo
   const Structure structure = structure_of(boxes_of(scene, out.ids), options.seed);
   const SampledSurface surface(structure.points, structure.normals);
   const Matcher matcher{structure, options};
-  for (const RetrievalModel& model : models) finite_points(model);
-  out.ranked.resize(models.size());
-  parallel_blocks(context, models.size(), 1, [&](std::size_t begin, std::size_t end) {
+  std::vector<RetrievalModel> usable;
+  std::vector<int> index;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    std::vector<Vec3> points = finite_points(models[m]);
+    if (points.empty()) {
+      context.warn(fmt::format("left out: {} has no extent", models[m].name));
+      continue;
+    }
+    usable.push_back({models[m].name, std::move(points)});
+    index.push_back(static_cast<int>(m));
+  }
+  if (usable.empty()) throw InputError(models.empty() ? "models" : models.front().name, "points", "none usable", "a model with an extent");
+  out.ranked.resize(usable.size());
+  parallel_blocks(context, usable.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t m = begin; m < end; ++m) {
-      out.ranked[m] = matcher.best({models[m].name, finite_points(models[m])}, surface);
-      out.ranked[m].model = static_cast<int>(m);
+      out.ranked[m] = matcher.best(usable[m], surface);
+      out.ranked[m].model = index[m];
     }
   });
   std::stable_sort(out.ranked.begin(), out.ranked.end(),

@@ -81,16 +81,20 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
   return rooms;
 }
 
-bool in_hidden_space(const DepthView& view, const OrientedBox& initial, const OrientedBox& box, double margin, double share) {
+bool in_hidden_space(const DepthView& view, std::span<const OrientedBox> known, const OrientedBox& box, double margin, double share) {
   int free = 0, all = 0;
   std::array<std::vector<double>, 3> grid;
   for (int k = 0; k < 3; ++k) grid[k] = places(box.half_size[k], margin, std::max(margin, box.half_size[k] / 5.0));
-  const Vec3 inner = initial.half_size.array() + margin;
+  const auto is_known = [&](const Vec3& p) {
+    return std::any_of(known.begin(), known.end(), [&](const OrientedBox& k) {
+      return ((k.axes.transpose() * (p - k.center)).cwiseAbs() - k.half_size).maxCoeff() <= margin;
+    });
+  };
   for (const double x : grid[0])
     for (const double y : grid[1])
       for (const double z : grid[2]) {
         const Vec3 p = box.center + box.axes * Vec3(x, y, z);
-        if (((initial.axes.transpose() * (p - initial.center)).cwiseAbs() - inner).maxCoeff() <= 0.0) continue;
+        if (is_known(p)) continue;
         ++all;
         free += view.at(p) == DepthView::Space::free;
       }

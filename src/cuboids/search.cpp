@@ -48,7 +48,7 @@ int best_remedy(Search& s, const Certificate& c, const Arrangement& now, const s
 }
 
 /// A first arrangement that stands, without looking back: every collapse gets its cheapest remedy; a body for which there
-/// is none is held.
+/// is none is held. When time is up all that moves is held.
 void descend(Search& s, std::vector<char> closed, std::vector<char>& unheld) {
   std::vector<int> chosen;
   for (;;) {
@@ -57,8 +57,9 @@ void descend(Search& s, std::vector<char> closed, std::vector<char>& unheld) {
     const Verdict verdict = judge(s, now);
     if (verdict.stands) return keep(s, now, chosen, verdict.residual);
     int remedy = -1;
+    const bool late = is_late(s);
     for (const int c : verdict.certificates)
-      if (remedy < 0) remedy = best_remedy(s, s.known[c], now, chosen, closed);
+      if (remedy < 0 && !late) remedy = best_remedy(s, s.known[c], now, chosen, closed);
     if (remedy >= 0) {
       chosen = with(chosen, remedy);
       const Hypothesis& h = s.problem.hypotheses[remedy];
@@ -69,7 +70,9 @@ void descend(Search& s, std::vector<char> closed, std::vector<char>& unheld) {
     blame(s, verdict);
     const int body = most_blamed(s);
     if (body < 0) return;
-    unheld[body] = s.held[body] = 1;
+    for (int i = 0; i < s.problem.bodies(); ++i)
+      if (i == body || (late && s.blame[i] > 0)) unheld[i] = s.held[i] = 1;
+    if (late) s.best.optimal = false;
     s.known.clear();
     s.blame.assign(s.problem.bodies(), 0);
   }

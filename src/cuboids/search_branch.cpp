@@ -141,7 +141,7 @@ void blame(Search& s, const Verdict& verdict) {
 void visit(Search& s, const std::vector<int>& chosen, std::vector<char> closed) {
   ++s.best.nodes;
   s.context.check();
-  if (s.visits++ >= s.most_visits || std::chrono::steady_clock::now() > s.end) {
+  if (s.visits++ >= s.most_visits || is_late(s)) {
     s.best.optimal = false;
     return;
   }

@@ -49,6 +49,7 @@ struct Verdict {
   std::vector<int> moving;        ///< bodies that are out of balance most
 };
 
+inline bool is_late(const Search& s) { return std::chrono::steady_clock::now() > s.end; }
 std::vector<int> with(std::vector<int> chosen, int hypothesis);
 Cost cost_of(const Search& s, const Arrangement& now);
 

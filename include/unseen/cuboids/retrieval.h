@@ -42,7 +42,7 @@ struct Retrieval {
 
 /// Ranks models by how well they fill a completed structure (thesis, Section 4.5 (ii)): upright, scaled into its
 /// bounding box, turned about up, refined by iterated closest points. Throws InputError for an id that is no cuboid's,
-/// a scene without cuboids and a model without extent.
+/// a scene without cuboids and models of which none has an extent; single ones without are a warning.
 Retrieval retrieve_models(const Completion& scene, const std::vector<RetrievalModel>& models, const RetrievalOptions& options,
                           Context& context);
 

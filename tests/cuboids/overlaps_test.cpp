@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// What boxes around visible parts have that bodies cannot have: overlaps, and nothing that holds them.
+#include <gtest/gtest.h>
+
+#include "box_problems.h"
+#include "cuboids/complete.h"
+
+namespace unseen::cuboids {
+namespace {
+
+/// From (0, −3, 1) along +y: measures the same depth everywhere, before which all is free and behind which all is hidden.
+DepthView view_of(float depth) {
+  RgbdFrame frame;
+  frame.camera = {100, 100, 49.5, 49.5, 100, 100};
+  frame.depth.assign(100 * 100, depth);
+  RigidTransform T;
+  T.rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  T.translation = {0, -3, 1};
+  return {frame, T, 0.001};
+}
+
+double overlap(const OrientedBox& a, const OrientedBox& b) {
+  const auto meet = interface_of(solid_of(a), solid_of(b), 0.0);
+  return meet ? std::max(0.0, -meet->gap) : 0.0;
+}
+
+TEST(Overlaps, EndWithTheHiddenFace) {
+  // One behind the other: the back of the nearer one was not seen, the front of the farther one was.
+  Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0, 0.18, 0.2}, {0.2, 0.2, 0.4})});
+  part_overlaps(view_of(2.9f), problem);
+  EXPECT_NEAR(overlap(problem.cuboids[0].initial, problem.cuboids[1].initial), 0.0, 2e-6);
+  EXPECT_NEAR(2.0 * problem.cuboids[0].initial.half_size.y(), 0.18, 1e-5);
+  EXPECT_NEAR(2.0 * problem.cuboids[1].initial.half_size.y(), 0.2, 1e-9);
+  EXPECT_TRUE(problem.joints.empty());
+}
+
+TEST(Overlaps, OfTurnedBoxesEndToo) {
+  Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}, 0.3), box({0.19, 0.05, 0.1}, {0.2, 0.2, 0.2}, -0.4)});
+  ASSERT_GT(overlap(problem.cuboids[0].initial, problem.cuboids[1].initial), 0.01);
+  part_overlaps(view_of(2.9f), problem);
+  EXPECT_LT(overlap(problem.cuboids[0].initial, problem.cuboids[1].initial), 2e-6);
+}
+
+TEST(Overlaps, TooDeepMakeOneRigidBody) {
+  Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.05, 0, 0.12}, {0.16, 0.16, 0.16}, 0.5)});
+  const OrientedBox before = problem.cuboids[1].initial;
+  part_overlaps(view_of(2.9f), problem);
+  ASSERT_EQ(problem.joints.size(), 1u);
+  EXPECT_EQ(problem.joints[0], (std::array{1, 2}));
+  EXPECT_EQ(problem.cuboids[1].initial.half_size, before.half_size);
+}
+
+TEST(Overlaps, ThatAreLeftAtTheEndAreFixed) {
+  const Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.195, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.6, 0, 0.1}, {0.2, 0.2, 0.2})});
+  Arrangement a = arrange(problem, {});
+  join_overlaps(problem, a);
+  ASSERT_EQ(a.fixed.size(), 1u);
+  EXPECT_EQ(a.fixed[0], (std::array{1, 2}));
+}
+
+/// A post, and a box beside its upper end with 3 cm between them.
+Problem hung() { return problem_of({box({0, 0, 0.5}, {0.2, 0.2, 1.0}), box({0.23, 0, 0.8}, {0.2, 0.2, 0.2})}); }
+
+TEST(Links, HoldWhatHangsWhereNobodyCouldSeeThem) {
+  const Problem problem = hung();
+  Arrangement a = arrange(problem, {});
+  std::vector<char> held = {0, 0, 1};
+  Context context;
+  EXPECT_EQ(hanging(problem, a, held), (std::vector<char>{0, 0, 1}));
+  link_hanging(problem, view_of(1.0f), held, a, context);
+  ASSERT_EQ(a.fixed.size(), 1u);
+  EXPECT_EQ(a.fixed[0], (std::array{1, 2}));
+  EXPECT_EQ(held, (std::vector<char>{0, 0, 0}));
+  EXPECT_TRUE(stands(problem, a, held));
+}
+
+TEST(Links, AreNotInFreeSpace) {
+  const Problem problem = hung();
+  Arrangement a = arrange(problem, {});
+  std::vector<char> held = {0, 0, 1};
+  Context context;
+  link_hanging(problem, view_of(9.0f), held, a, context);
+  EXPECT_TRUE(a.fixed.empty());
+  EXPECT_EQ(held[2], 1);
+}
+
+TEST(Links, AreNotToWhatWouldFallOver) {
+  Problem problem = problem_of({box({0, 0, 0.5}, {0.02, 0.02, 1.0}), box({0.4, 0, 0.8}, {0.7, 0.4, 0.2})});
+  Arrangement a = arrange(problem, {});
+  std::vector<char> held = {0, 0, 1};
+  Context context;
+  link_hanging(problem, view_of(1.0f), held, a, context);
+  EXPECT_EQ(held[2], 1);
+}
+
+TEST(Fuse, LeavesApartWhatHasAFreeGap) {
+  // Two long boxes in line with 3 cm between them: seen through (depth 9 m), or covered (1 m).
+  for (const float depth : {9.0f, 1.0f}) {
+    std::vector<Cuboid> cuboids = {cuboid(box({-0.215, 0, 0.1}, {0.4, 0.3, 0.2})), cuboid(box({0.215, 0, 0.1}, {0.4, 0.3, 0.2}))};
+    std::vector<double> tolerance(2, 0.006);
+    EXPECT_EQ(fuse_pieces(view_of(depth), cuboids, tolerance), depth > 5.0f ? 0u : 1u);
+  }
+}
+
+}  // namespace
+}  // namespace unseen::cuboids
