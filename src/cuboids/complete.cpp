@@ -121,7 +121,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   if (stands(problem, closed, choice.held) || !stands(problem, arrangement, choice.held)) arrangement = std::move(closed);
   link_hanging(problem, view, choice.held, arrangement, context);
   lower_residual(problem, rooms, admissible, choice.held, arrangement, context);
-  join_overlaps(problem, arrangement);
+  end_overlaps(view, problem, choice.held, arrangement);
   describe(problem, choice.held, arrangement, result);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {

@@ -25,11 +25,13 @@ std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std
 std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);
 
 /// Boxes around what was seen may overlap, which bodies can't: the face gives way that loses the smallest part of what it may, those that
-/// nobody saw before others. Boxes that overlap too far for that are parts of something that is no box: they become rigid together.
+/// nobody saw before others. Boxes that overlap too far for that are parts of something that is no box: they become rigid together, unless masks
+/// tell them apart.
 void part_overlaps(const DepthView& view, Problem& problem);
 
-/// What still overlaps at the end becomes rigid together, which leaves standing what stands.
-void join_overlaps(const Problem& problem, Arrangement& arrangement);
+/// The same for what overlaps at the end, if all still stands then; else the two become rigid together, which leaves standing what
+/// stands.
+void end_overlaps(const DepthView& view, const Problem& problem, const std::vector<char>& held, Arrangement& arrangement);
 
 /// Upright boxes whose back was not seen get a thickness: that of their narrower visible side, as far as hidden space
 /// goes. Something covers the upper edge of their back, or that would have shown it.

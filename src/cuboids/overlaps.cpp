@@ -21,19 +21,21 @@ struct Retreat {
   double length = 0, share = std::numeric_limits<double>::infinity();  ///< m; of what it may give way
 };
 
-std::optional<Interface> meet(const Problem& problem, int a, int b) {
-  const ConvexSolid second = solid_of(problem.cuboid(b).initial);
-  return problem.is_support(a) ? interface_of(problem.supports[a], second, 0.0) : interface_of(solid_of(problem.cuboid(a).initial), second, 0.0);
+std::optional<Interface> meet(const Problem& problem, const std::vector<OrientedBox>& boxes, int a, int b) {
+  const ConvexSolid second = solid_of(boxes[b - problem.supports_count()]);
+  return problem.is_support(a) ? interface_of(problem.supports[a], second, 0.0)
+                               : interface_of(solid_of(boxes[a - problem.supports_count()]), second, 0.0);
 }
 
-double depth_of(const Problem& problem, int a, int b) {
-  const auto there = meet(problem, a, b);
+double depth_of(const Problem& problem, const std::vector<OrientedBox>& boxes, int a, int b) {
+  const auto there = meet(problem, boxes, a, b);
   return there ? std::max(0.0, -there->gap) : 0.0;
 }
 
 /// The least move of one face of `body` that ends its overlap, `towards` being where the other body lies.
-void propose_retreats(const DepthView& view, Problem problem, int a, int b, int body, const Vec3& towards, double depth, Retreat& best) {
-  OrientedBox& box = problem.cuboids[body - problem.supports_count()].initial;
+void propose_retreats(const DepthView& view, const Problem& problem, std::vector<OrientedBox> boxes, int a, int b, int body,
+                      const Vec3& towards, double depth, Retreat& best) {
+  OrientedBox& box = boxes[body - problem.supports_count()];
   const OrientedBox before = box;
   for (int face = 0; face < 6; ++face) {
     const Vec3 normal = face_normal(before, face);
@@ -43,50 +45,64 @@ void propose_retreats(const DepthView& view, Problem problem, int a, int b, int 
     const double length = depth / cosine, share = length / (size * (seen ? kSeenShrink : kHiddenShrink));
     if (share > 1.0 || share >= best.share) continue;
     box = extended(before, face, -length);
-    if (depth_of(problem, a, b) <= kTouching) best = {body - problem.supports_count(), face, length, share};
+    if (depth_of(problem, boxes, a, b) <= kTouching) best = {body - problem.supports_count(), face, length, share};
     box = before;
   }
 }
 
-Retreat retreat_of(const DepthView& view, const Problem& problem, int a, int b, const Interface& there) {
+/// The face of two overlapping bodies that gives way best; none if that is too much for all.
+Retreat retreat_of(const DepthView& view, const Problem& problem, const std::vector<OrientedBox>& boxes, int a, int b, const Interface& there) {
   Retreat best;
-  propose_retreats(view, problem, a, b, b, -there.normal, -there.gap, best);
-  if (!problem.is_support(a)) propose_retreats(view, problem, a, b, a, there.normal, -there.gap, best);
+  propose_retreats(view, problem, boxes, a, b, b, -there.normal, -there.gap, best);
+  if (!problem.is_support(a)) propose_retreats(view, problem, boxes, a, b, a, there.normal, -there.gap, best);
   return best;
 }
+
+/// A mask said so.
+bool are_known_objects(const Problem& problem, int a, int b) { return !problem.cuboid(a).label.empty() && !problem.cuboid(b).label.empty(); }
 
 }  // namespace
 
 void part_overlaps(const DepthView& view, Problem& problem) {
+  std::vector<OrientedBox> boxes = arrange(problem, {}).boxes;
   for (int round = 0; round < kRounds; ++round) {
     bool changed = false;
     for (int b = problem.supports_count(); b < problem.bodies(); ++b)
       for (int a = 0; a < b; ++a) {
         if (problem.is_one_object(a, b)) continue;
-        const auto there = meet(problem, a, b);
+        const auto there = meet(problem, boxes, a, b);
         if (!there || there->gap > -kTouching) continue;
-        const Retreat retreat = retreat_of(view, problem, a, b, *there);
+        const Retreat retreat = retreat_of(view, problem, boxes, a, b, *there);
         if (retreat.cuboid < 0) continue;
-        OrientedBox& box = problem.cuboids[retreat.cuboid].initial;
-        box = extended(box, retreat.face, -retreat.length);
+        boxes[retreat.cuboid] = extended(boxes[retreat.cuboid], retreat.face, -retreat.length);
         changed = true;
       }
     if (!changed) break;
   }
-  for (int b = problem.supports_count(); b < problem.bodies(); ++b)
+  for (int b = problem.supports_count(); b < problem.bodies(); ++b) {
+    problem.cuboids[b - problem.supports_count()].initial = boxes[b - problem.supports_count()];
     for (int a = problem.supports_count(); a < b; ++a)
-      if (!problem.is_one_object(a, b) && depth_of(problem, a, b) > problem.pair_tolerance(a, b)) problem.joints.push_back({a, b});
+      if (!problem.is_one_object(a, b) && !are_known_objects(problem, a, b) && depth_of(problem, boxes, a, b) > problem.pair_tolerance(a, b))
+        problem.joints.push_back({a, b});
+  }
 }
 
-void join_overlaps(const Problem& problem, Arrangement& arrangement) {
+void end_overlaps(const DepthView& view, const Problem& problem, const std::vector<char>& held, Arrangement& arrangement) {
   const std::vector<int> group = structure_of(problem, arrangement, {}, std::vector<char>(problem.bodies(), 0)).group;
   for (int b = problem.supports_count(); b < problem.bodies(); ++b)
     for (int a = 0; a < b; ++a) {
       if (group[a] == group[b]) continue;
-      const ConvexSolid& second = arrangement.solids[b - problem.supports_count()];
-      const auto there = problem.is_support(a) ? interface_of(problem.supports[a], second, 0.0)
-                                               : interface_of(arrangement.solids[a - problem.supports_count()], second, 0.0);
-      if (there && -there->gap > kSlightly) arrangement.fixed.push_back({a, b});
+      const auto there = meet(problem, arrangement.boxes, a, b);
+      if (!there || there->gap > -kSlightly) continue;
+      const Retreat retreat = retreat_of(view, problem, arrangement.boxes, a, b, *there);
+      if (retreat.cuboid >= 0) {
+        Arrangement parted = with_face(problem, arrangement, retreat.cuboid, retreat.face, -retreat.length);
+        if (depth_of(problem, parted.boxes, a, b) < kSlightly && stands(problem, parted, held)) {
+          arrangement = std::move(parted);
+          continue;
+        }
+      }
+      arrangement.fixed.push_back({a, b});
     }
   std::sort(arrangement.fixed.begin(), arrangement.fixed.end());
 }

@@ -51,12 +51,23 @@ TEST(Overlaps, TooDeepMakeOneRigidBody) {
   EXPECT_EQ(problem.cuboids[1].initial.half_size, before.half_size);
 }
 
-TEST(Overlaps, ThatAreLeftAtTheEndAreFixed) {
-  const Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.195, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.6, 0, 0.1}, {0.2, 0.2, 0.2})});
+TEST(Overlaps, OfKnownObjectsJoinNothing) {
+  Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.05, 0, 0.12}, {0.16, 0.16, 0.16}, 0.5)});
+  problem.cuboids[0].label = "1";
+  problem.cuboids[1].label = "2";
+  part_overlaps(view_of(2.9f), problem);
+  EXPECT_TRUE(problem.joints.empty());
+}
+
+TEST(Overlaps, ThatAreLeftAtTheEndEndToo) {
+  // Small: a face gives way. Deep: nothing can, so they are fixed.
+  const Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.195, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.6, 0, 0.1}, {0.2, 0.2, 0.2}),
+                                      box({0.63, 0.02, 0.12}, {0.16, 0.16, 0.16}, 0.5)});
   Arrangement a = arrange(problem, {});
-  join_overlaps(problem, a);
+  end_overlaps(view_of(2.9f), problem, std::vector<char>(5, 0), a);
+  EXPECT_LT(overlap(a.boxes[0], a.boxes[1]), 1e-3);
   ASSERT_EQ(a.fixed.size(), 1u);
-  EXPECT_EQ(a.fixed[0], (std::array{1, 2}));
+  EXPECT_EQ(a.fixed[0], (std::array{3, 4}));
 }
 
 /// A post, and a box beside its upper end with 3 cm between them.
