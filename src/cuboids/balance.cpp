@@ -7,11 +7,12 @@
 // Newton's method", 1993; Rockafellar, "Augmented Lagrangians and applications of the proximal point algorithm", 1976),
 // and then replaces f by that projection. The matrix I + σ D Π' Dᵀ has a 6×6 block a body and a pair that touches, so
 // a step costs little more than looking at each contact, however many of them press. The round cone needs no polygon.
+// Forces count in units of the load that may pass, or a light body would hardly come to bear a heavy one.
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "cuboids/block_cholesky.h"
+#include "cuboids/cone_contacts.h"
 #include "cuboids/friction_cone.h"
 #include "cuboids/statics.h"
 
@@ -19,35 +20,13 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFirstSigma = 100.0, kSigmaGrowth = 10.0, kLargestSigma = 1e5;
-constexpr int kRounds = 60, kSteps = 200, kTries = 60;
+constexpr int kRounds = 60, kSteps = 200, kTries = 200;
 constexpr double kBalanced = 1e-11;  ///< residual
 constexpr double kMinimal = 1e-12;   ///< gradient of ψ, at least; per σ, what rounding leaves
 constexpr double kRounding = 1e-15;
 constexpr double kRough = 1e-2;      ///< share of a round's change in f/σ to which it need be solved
 
 using Vector = Eigen::VectorXd;
-
-/// How a contact's force (in its own unit) acts on one of its bodies.
-struct Lever {
-  int body = -1;     ///< of the component, −1 = static
-  double scale = 0;  ///< signed, 1/weight
-  Vec3 arm;          ///< from the centre, in half sizes
-};
-
-struct ConeContact {
-  Lever lever[2];
-  Vec3 normal;
-  double friction = 0, unit = 0;  ///< N
-  int index = -1;  ///< of the caller's contact
-  int pair = -1;   ///< of bodies, −1 = one is static
-};
-
-/// Movable bodies that touch each other, directly or through others.
-struct Component {
-  std::vector<int> bodies;
-  std::vector<ConeContact> contacts;
-  std::vector<std::pair<int, int>> pairs;
-};
 
 double largest_part(const Vector& r) {
   double largest = 0;
@@ -98,9 +77,11 @@ class Solver {
                                   contacts_[c].friction).force;
   }
 
-  /// Returns the residual Df + w; force_ then holds f.
+  /// Returns the residual Df + w; forces() and motion() then hold f and what r came to. The two differ by what is left
+  /// of the gradient, which only the residual counts; of light bodies under heavy ones only r tells the motion.
   Vector solve(const Effort& effort) {
-    Vector r = residual_of(force_), exact = r;
+    Vector exact = residual_of(force_);
+    Vector& r = motion_ = exact;
     double sigma = kFirstSigma;
     for (int round = 0; round < kRounds; ++round) {
       minimise(r, sigma);
@@ -119,6 +100,7 @@ class Solver {
   }
 
   const std::vector<Vec3>& forces() const { return force_; }
+  const Vector& motion() const { return motion_; }
 
  private:
   Vector residual_of(const std::vector<Vec3>& forces) const {
@@ -171,10 +153,11 @@ class Solver {
   }
 
   /// Goes along a step to where ψ rises or falls less than half as steeply as at first; false if rounding hides where.
-  /// ψ is convex with sharp bends, some 10⁵ times as steep on one side, so halving a whole step would not get there.
+  /// ψ is convex with sharp bends, some 10⁵ to 10¹⁰ times as steep on one side, so halving a whole step would not get there.
   bool walk(Vector& r, const Vector& step, double sigma, Vector& gradient) {
     const double first = gradient.dot(step);
     double low = 0.0, low_slope = first, high = 1.0, high_slope = 0.0, at = 1.0;
+    int side = 0;
     for (int i = 0; i < kTries; ++i) {
       evaluate(r + at * step, sigma, gradient);
       const double slope = gradient.dot(step);
@@ -182,12 +165,17 @@ class Solver {
         r += at * step;
         return true;
       }
+      // The end that stays counts half from its second time on (Dowell & Jarratt's Illinois method).
       if (slope < 0.0) {
+        if (side < 0) high_slope *= 0.5;
         low = at;
         low_slope = slope;
+        side = -1;
       } else {
+        if (side > 0) low_slope *= 0.5;
         high = at;
         high_slope = slope;
+        side = 1;
       }
       at = low - low_slope * (high - low) / (high_slope - low_slope);
       // A secant alone creeps towards a bend.
@@ -199,74 +187,11 @@ class Solver {
 
   const std::vector<ConeContact>& contacts_;
   BlockCholesky matrix_;
-  Vector load_;
+  Vector load_, motion_;
   std::vector<Vec3> force_;
   std::vector<ConeProjection> next_;
   double change_ = 0;
 };
-
-/// The component of each body, −1 for static ones; returns how many there are.
-int number_components(std::span<const Body> bodies, std::span<const ContactPoint> contacts, std::vector<int>& of_body) {
-  std::vector<int> root(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) root[i] = static_cast<int>(i);
-  const auto find = [&](int i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (const ContactPoint& c : contacts) {
-    if (bodies[c.a].is_static || bodies[c.b].is_static) continue;
-    const int a = find(c.a), b = find(c.b);
-    root[std::max(a, b)] = std::min(a, b);
-  }
-  int count = 0;
-  of_body.assign(bodies.size(), -1);
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i].is_static) of_body[i] = find(i) == static_cast<int>(i) ? count++ : of_body[find(i)];
-  return count;
-}
-
-ConeContact cone_contact(std::span<const Body> bodies, const std::vector<int>& local, const ContactPoint& c, int index) {
-  ConeContact k;
-  k.normal = c.normal;
-  k.friction = c.friction;
-  k.index = index;
-  double sum = 0;
-  for (int side = 0; side < 2; ++side) {
-    const int i = side == 0 ? c.a : c.b;
-    const Body& body = bodies[i];
-    if (body.is_static) continue;
-    k.lever[side] = {local[i], (side == 0 ? -1.0 : 1.0) / body.weight, (c.position - body.center) / body.half_size};
-    sum += 1.0 / (body.weight * body.weight);
-  }
-  k.unit = 1.0 / std::sqrt(sum);
-  for (Lever& l : k.lever) l.scale *= k.unit;
-  return k;
-}
-
-std::vector<Component> components_of(std::span<const Body> bodies, std::span<const ContactPoint> contacts) {
-  std::vector<int> of_body, local(bodies.size(), -1);
-  std::vector<Component> components(number_components(bodies, contacts, of_body));
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (of_body[i] < 0) continue;
-    if (!(bodies[i].weight > 0.0) || !(bodies[i].half_size > 0.0))
-      throw std::invalid_argument("a body that is not static needs weight and size");
-    local[i] = static_cast<int>(components[of_body[i]].bodies.size());
-    components[of_body[i]].bodies.push_back(static_cast<int>(i));
-  }
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const ContactPoint& p = contacts[c];
-    if (p.a == p.b || (bodies[p.a].is_static && bodies[p.b].is_static)) continue;
-    Component& component = components[std::max(of_body[p.a], of_body[p.b])];
-    ConeContact k = cone_contact(bodies, local, p, static_cast<int>(c));
-    if (k.lever[0].body >= 0 && k.lever[1].body >= 0) {
-      const std::pair<int, int> pair(k.lever[0].body, k.lever[1].body);
-      if (component.pairs.empty() || component.pairs.back() != pair) component.pairs.push_back(pair);
-      k.pair = static_cast<int>(component.pairs.size()) - 1;
-    }
-    component.contacts.push_back(k);
-  }
-  return components;
-}
 
 }  // namespace
 
@@ -278,10 +203,9 @@ Balance balance(std::span<const Body> bodies, std::span<const ContactPoint> cont
   for (const Component& component : components_of(bodies, contacts)) {
     Solver solver(component, gravity);
     if (start.size() == contacts.size()) solver.start_from(start);
-    const Vector r = solver.solve(effort);
+    result.residual = std::max(result.residual, largest_part(solver.solve(effort)));
     for (std::size_t i = 0; i < component.bodies.size(); ++i)
-      result.motion[component.bodies[i]] = r.segment<6>(6 * i);
-    result.residual = std::max(result.residual, largest_part(r));
+      result.motion[component.bodies[i]] = solver.motion().segment<6>(6 * i);
     for (std::size_t c = 0; c < component.contacts.size(); ++c)
       result.forces[component.contacts[c].index] = component.contacts[c].unit * solver.forces()[c];
   }
