@@ -138,6 +138,15 @@ Faces faces_of_supports(const RgbdFrame& frame, const Measured& measured, const 
   return grown();
 }
 
+/// A word where up is not what most pictures have, or may be wrong.
+void remark_on_up(const FoundUp& told, const Vec3& up, Context& context) {
+  const bool turned = is_turned(up);
+  if (!turned && !told.ambiguous) return;
+  context.warn(fmt::format("{}: up is taken as [{:.2f}, {:.2f}, {:.2f}] from the ground; if that is wrong, give it as \"up\" in frame.json",
+                           turned ? "the camera seems turned about its axis" : "more than one surface may be the ground", up.x(), up.y(),
+                           up.z()));
+}
+
 }  // namespace
 
 Observation observe(const RgbdFrame& frame, const Options& options, Context& context) {
@@ -156,7 +165,8 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
     found = given_supports(frame, scan);
     if (frame.up && frame.up->normalized().dot(found.up) > kSameUp) found.up = frame.up->normalized();
   } else {
-    const Vec3 up = frame.up ? frame.up->normalized() : find_up(scan);
+    const FoundUp told = frame.up ? FoundUp{frame.up->normalized()} : find_up(scan);
+    const Vec3& up = told.up;
     if (!up.allFinite() || up.norm() < 0.5) throw InputError(frame.name, "depth", "no plane", "a surface to stand on");
     found = find_supports(scan, up);
     if (frame.up && found.upside_down)
@@ -164,6 +174,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
     if (found.supports.empty())
       throw InputError(frame.name, "depth", "no horizontal plane", "a surface to stand on");
     if (frame.up && found.up.dot(up) < kSameUp) found.up = up;
+    if (!frame.up && scan.is_image) remark_on_up(told, found.up, context);
   }
   seen.T_world_camera = world_of(found.up, found.supports.front().plane, scan.is_image);
   seen.support_of_point = assign(found, scan);

@@ -11,8 +11,6 @@
 namespace unseen::cuboids {
 namespace {
 
-const double kHorizontal = std::cos(radians(10.0)), kVertical = std::sin(radians(10.0));
-const Vec3 kUsualUp = Vec3(0.0, -0.9, -0.43).normalized();  // of a camera held upright, looking a little down
 constexpr double kSmallestGroundShare = 0.2;  // of the largest horizontal area, or of its pixels
 constexpr double kCarryShare = 1.0 / 3.0;     // of what the surface that carries most carries
 constexpr double kCarryHeight = 0.5;          // m
@@ -21,45 +19,6 @@ constexpr double kMostBehindWall = 0.03;      // of the points
 constexpr double kDeskArea = 0.4;  // m²; what is flat and as large may carry things itself
 constexpr double kBelow = 0.1, kBelowShare = 0.05;  // m below the ground, share of the points
 constexpr int kColumns = 512;
-constexpr std::size_t kMostFitPoints = 15000;
-
-struct Level {
-  Plane plane;
-  double area = 0, carried = 0;
-  std::vector<int> faces;
-  std::vector<Vec2> outline;
-};
-
-std::vector<int> points_of(const Scan& scan, const std::vector<int>& faces) {
-  std::vector<int> points;
-  for (const int f : faces)
-    points.insert(points.end(), scan.faces.faces[f].points.begin(), scan.faces.faces[f].points.end());
-  return points;
-}
-
-/// m: how far a point may lie from a support that it belongs to.
-double tolerance_at(const Scan& scan, const Face& face) {
-  return 4.0 * scan.graph.sigma[face.points[face.points.size() / 2]];
-}
-
-/// Faces of one plane, largest first; each face joins the first plane that it lies on.
-std::vector<Level> coplanar(const Scan& scan, std::vector<int> faces) {
-  std::stable_sort(faces.begin(), faces.end(),
-                   [&](int a, int b) { return scan.faces.faces[a].area > scan.faces.faces[b].area; });
-  std::vector<Level> levels;
-  for (const int f : faces) {
-    const Face& face = scan.faces.faces[f];
-    auto level = std::find_if(levels.begin(), levels.end(), [&](const Level& l) {
-      return l.plane.normal.dot(face.plane.normal) > kHorizontal &&
-             std::abs(l.plane.signed_distance(face.center)) < std::max(tolerance_at(scan, face), 0.005);
-    });
-    if (level == levels.end()) level = levels.insert(level, Level{face.plane, 0, 0, {}, {}});
-    level->faces.push_back(f);
-    level->area += face.area;
-  }
-  for (Level& level : levels) level.plane = fit_support(scan, points_of(scan, level.faces));
-  return levels;
-}
 
 void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v) {
   std::vector<Vec2> flat;
@@ -173,74 +132,6 @@ bool inside_outline(std::span<const Vec2> outline, const Vec2& p, double margin)
     if (edge.x() * d.y() - edge.y() * d.x() < -margin * edge.norm()) return false;
   }
   return !outline.empty();
-}
-
-Vec3 find_up(const Scan& scan) {
-  std::vector<const Face*> large;
-  for (const Face& face : scan.faces.faces) large.push_back(&face);
-  std::stable_sort(large.begin(), large.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
-  if (large.size() > 40) large.resize(40);
-  Vec3 best = Vec3::Zero();
-  double best_score = 0;
-  for (const Face* candidate : large) {
-    const Vec3& up = candidate->plane.normal;
-    const double usual = scan.is_image ? std::max(up.dot(kUsualUp), 0.0) : 0.5 + 0.5 * up.z();
-    double agree = 0;
-    for (const Face* face : large) {
-      const double c = std::abs(face->plane.normal.dot(up));
-      agree += c > kHorizontal ? face->area : c < kVertical ? 0.3 * face->area : 0.0;
-    }
-    const double score = std::pow(usual, 4) * (agree + candidate->area);
-    if (score > best_score) best_score = score, best = up;
-  }
-  return best;
-}
-
-Plane fit_support(const Scan& scan, std::span<const int> points) {
-  const std::size_t step = points.size() / kMostFitPoints + 1;
-  Vec3 solution = Vec3::Zero();
-  Plane plane;
-  double scale = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < 3; ++round) {
-    Mat3 normal_matrix = Mat3::Zero();
-    Vec3 right = Vec3::Zero(), mean = Vec3::Zero();
-    Mat3 second = Mat3::Zero();
-    double weights = 0;
-    std::vector<double> residuals;
-    const Vec3 origin = scan.points[points[0]];
-    for (std::size_t k = 0; k < points.size(); k += step) {
-      const Vec3& p = scan.points[points[k]];
-      const double w = 1.0 / (double(scan.graph.sigma[points[k]]) * scan.graph.sigma[points[k]]);
-      const Vec3 ray = p / p.z();
-      const double r = round == 0 ? 0.0
-                       : scan.is_image ? std::abs(ray.dot(solution) - 1.0 / p.z())
-                                       : std::abs(plane.signed_distance(p)) * std::sqrt(w);
-      residuals.push_back(r);
-      if (r > 3.0 * scale) continue;
-      normal_matrix += ray * ray.transpose();
-      right += ray / p.z();
-      const Vec3 d = p - origin;
-      mean += w * d;
-      second += w * d * d.transpose();
-      weights += w;
-    }
-    if (scan.is_image) {
-      solution = normal_matrix.ldlt().solve(right);
-      plane = {-solution.normalized(), -1.0 / solution.norm()};
-    } else {
-      mean /= weights;
-      const Eigen::SelfAdjointEigenSolver<Mat3> eigen(second / weights - mean * mean.transpose());
-      Vec3 n = eigen.eigenvectors().col(0);
-      if (n.dot(origin + mean) > 0.0) n = -n;
-      plane = {n, n.dot(origin + mean)};
-    }
-    if (round > 0) {
-      const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-      std::nth_element(residuals.begin(), middle, residuals.end());
-      scale = 1.4826 * *middle;
-    }
-  }
-  return plane;
 }
 
 FoundSupports find_supports(const Scan& scan, const Vec3& up) {

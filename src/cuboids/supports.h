@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cuboids/faces.h"
+#include "cuboids/levels.h"
 #include "unseen/cuboids/types.h"
 
 namespace unseen::cuboids {
@@ -23,24 +23,21 @@ struct FoundSupports {
   bool upside_down = false;  ///< nothing faces the given up, but much its opposite
 };
 
-/// Points of a frame as the supports see them: camera coordinates, viewpoint at the origin.
-struct Scan {
-  std::span<const Vec3> points;
-  const PointGraph& graph;
-  const Faces& faces;
-  bool is_image = true;  ///< depth along z, noise in 1/z the same everywhere
+/// Up as the surfaces tell it.
+struct FoundUp {
+  Vec3 up = Vec3::Zero();  ///< zero = nothing tells
+  bool ambiguous = false;  ///< another surface may be the ground as well
 };
 
-/// The direction that most large faces agree is up. A picture taken upright or looking down decides between floors
-/// and walls.
-Vec3 find_up(const Scan& scan);
+/// The direction that most large faces agree is up in a picture taken upright or looking down, unless what stands there
+/// stands on another large plane: then the camera was turned about its axis, and the normal of that plane is up.
+FoundUp find_up(const Scan& scan);
+
+/// Whether a camera with this up was turned about its axis by more than people turn one to take a picture upright.
+bool is_turned(const Vec3& up);
 
 /// Ground: the lowest large horizontal surface that carries things. Then walls that
 /// bound what was seen, ceilings. Empty supports if there is no ground.
 FoundSupports find_supports(const Scan& scan, const Vec3& up);
-
-/// Plane through points, robust. For an image the linear regression of 1/z on the ray, whose noise is the same
-/// everywhere; for a cloud weighted total least squares. The normal points to the viewpoint.
-Plane fit_support(const Scan& scan, std::span<const int> points);
 
 }  // namespace unseen::cuboids

@@ -16,6 +16,7 @@ namespace unseen::cuboids::test {
 struct Scene {
   std::vector<OrientedBox> boxes;
   double height = 0.6, pitch = radians(35.0);  ///< of the camera above the ground, below the horizon
+  double roll = 0.0;                           ///< of the camera about its axis, clockwise as it looks
   double noise = 0.0015;                       ///< σ of the depth at 1 m
   double ground_end = 10.0;                    ///< m, how far the ground goes
   int dropout = 0;                             ///< pixels without depth along silhouettes
@@ -39,6 +40,7 @@ inline RigidTransform camera_of(const Scene& scene) {
   T.rotation.col(0) = Vec3::UnitX();
   T.rotation.col(1) = Vec3(0, -s, -c);
   T.rotation.col(2) = Vec3(0, c, -s);
+  T.rotation = T.rotation * Eigen::AngleAxisd(scene.roll, Vec3::UnitZ()).toRotationMatrix();
   T.translation = Vec3(0, 0, scene.height);
   return T;
 }

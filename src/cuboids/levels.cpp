@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/levels.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr std::size_t kMostFitPoints = 15000;
+
+/// m: how far a point may lie from a support that it belongs to.
+double tolerance_at(const Scan& scan, const Face& face) {
+  return 4.0 * scan.graph.sigma[face.points[face.points.size() / 2]];
+}
+
+}  // namespace
+
+std::vector<int> points_of(const Scan& scan, const std::vector<int>& faces) {
+  std::vector<int> points;
+  for (const int f : faces)
+    points.insert(points.end(), scan.faces.faces[f].points.begin(), scan.faces.faces[f].points.end());
+  return points;
+}
+
+std::vector<Level> coplanar(const Scan& scan, std::vector<int> faces) {
+  std::stable_sort(faces.begin(), faces.end(),
+                   [&](int a, int b) { return scan.faces.faces[a].area > scan.faces.faces[b].area; });
+  std::vector<Level> levels;
+  for (const int f : faces) {
+    const Face& face = scan.faces.faces[f];
+    auto level = std::find_if(levels.begin(), levels.end(), [&](const Level& l) {
+      return l.plane.normal.dot(face.plane.normal) > kHorizontal &&
+             std::abs(l.plane.signed_distance(face.center)) < std::max(tolerance_at(scan, face), 0.005);
+    });
+    if (level == levels.end()) level = levels.insert(level, Level{face.plane, 0, 0, {}, {}});
+    level->faces.push_back(f);
+    level->area += face.area;
+  }
+  for (Level& level : levels) level.plane = fit_support(scan, points_of(scan, level.faces));
+  return levels;
+}
+
+Plane fit_support(const Scan& scan, std::span<const int> points) {
+  const std::size_t step = points.size() / kMostFitPoints + 1;
+  Vec3 solution = Vec3::Zero();
+  Plane plane;
+  double scale = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < 3; ++round) {
+    Mat3 normal_matrix = Mat3::Zero();
+    Vec3 right = Vec3::Zero(), mean = Vec3::Zero();
+    Mat3 second = Mat3::Zero();
+    double weights = 0;
+    std::vector<double> residuals;
+    const Vec3 origin = scan.points[points[0]];
+    for (std::size_t k = 0; k < points.size(); k += step) {
+      const Vec3& p = scan.points[points[k]];
+      const double w = 1.0 / (double(scan.graph.sigma[points[k]]) * scan.graph.sigma[points[k]]);
+      const Vec3 ray = p / p.z();
+      const double r = round == 0 ? 0.0
+                       : scan.is_image ? std::abs(ray.dot(solution) - 1.0 / p.z())
+                                       : std::abs(plane.signed_distance(p)) * std::sqrt(w);
+      residuals.push_back(r);
+      if (r > 3.0 * scale) continue;
+      normal_matrix += ray * ray.transpose();
+      right += ray / p.z();
+      const Vec3 d = p - origin;
+      mean += w * d;
+      second += w * d * d.transpose();
+      weights += w;
+    }
+    if (scan.is_image) {
+      solution = normal_matrix.ldlt().solve(right);
+      plane = {-solution.normalized(), -1.0 / solution.norm()};
+    } else {
+      mean /= weights;
+      const Eigen::SelfAdjointEigenSolver<Mat3> eigen(second / weights - mean * mean.transpose());
+      Vec3 n = eigen.eigenvectors().col(0);
+      if (n.dot(origin + mean) > 0.0) n = -n;
+      plane = {n, n.dot(origin + mean)};
+    }
+    if (round > 0) {
+      const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+      std::nth_element(residuals.begin(), middle, residuals.end());
+      scale = 1.4826 * *middle;
+    }
+  }
+  return plane;
+}
+
+}  // namespace unseen::cuboids

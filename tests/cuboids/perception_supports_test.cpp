@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include "perception_scenes.h"
+
+namespace unseen::cuboids::test {
+namespace {
+
+Scene few_boxes() {
+  Scene scene;
+  scene.boxes = {upright(-0.2, 0.8, 0, {0.26, 0.2, 0.12}, 5), upright(-0.19, 0.81, 0.12, {0.15, 0.12, 0.07}, 40),
+                 upright(0.2, 0.7, 0, {0.1, 0.12, 0.2}, -20)};
+  return scene;
+}
+
+/// As few_boxes(), one of them against a wall that is as large as the ground.
+Scene by_a_wall() {
+  Scene scene = few_boxes();
+  scene.height = 0.9;
+  scene.boxes.push_back(upright(0.15, 1.35, 0, {0.3, 0.3, 0.25}, 0));
+  scene.boxes.push_back(upright(0.0, 1.55, 0, {6.0, 0.1, 3.0}, 0));
+  return scene;
+}
+
+struct ToldUp {
+  double error = 0;  ///< degrees
+  std::vector<std::string> warnings;
+};
+
+ToldUp up_of(const Scene& scene) {
+  Context context;
+  const Observation seen = observe(render(scene), {}, context);
+  const Vec3 up = seen.T_world_camera.rotation.row(2).transpose(), truth = camera_of(scene).rotation.row(2).transpose();
+  return {degrees(std::acos(std::clamp(up.dot(truth), -1.0, 1.0))), context.take_warnings()};
+}
+
+TEST(Up, IsFoundHoweverTheCameraWasTurned) {
+  for (Scene scene : {few_boxes(), by_a_wall()})
+    for (const double roll : {30.0, -60.0, 75.0, 90.0, -90.0, 180.0}) {
+      scene.roll = radians(roll);
+      EXPECT_LT(up_of(scene).error, 1.0) << roll;
+    }
+}
+
+TEST(Up, OfAnUnusualPictureIsRemarkedOn) {
+  Scene scene = few_boxes();
+  EXPECT_TRUE(up_of(scene).warnings.empty());
+  scene.roll = radians(45.0);
+  EXPECT_TRUE(up_of(scene).warnings.empty());
+  scene.roll = radians(90.0);
+  const std::vector<std::string> warnings = up_of(scene).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("up is taken as [-0.82, 0.00, -0.57] from the ground"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("\"up\" in frame.json"), std::string::npos) << warnings[0];
+}
+
+TEST(Up, ThatTheFrameStatesIsTakenWithoutRemark) {
+  Scene scene = few_boxes();
+  scene.roll = radians(180.0);
+  RgbdFrame frame = render(scene);
+  const Vec3 up = camera_of(scene).rotation.row(2).transpose();
+  frame.up = up;
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  EXPECT_LT(degrees(line_angle(seen.T_world_camera.rotation.row(2).transpose(), up)), 1.0);
+  EXPECT_TRUE(context.take_warnings().empty());
+}
+
+TEST(Up, OfALargeBareWallBesideASmallFloorIsThatOfTheFloor) {
+  Scene scene = few_boxes();
+  scene.pitch = radians(15.0);
+  scene.height = 0.7;
+  OrientedBox wall = upright(0, 0, 0, {0.1, 8.0, 3.0}, -40.0);  // to the left and behind, seen at a slant
+  wall.center += Vec3(-0.6, 2.0, 0);
+  scene.boxes.push_back(wall);
+  const ToldUp told = up_of(scene);
+  EXPECT_LT(told.error, 1.0);
+  EXPECT_TRUE(told.warnings.empty());
+}
+
+}  // namespace
+}  // namespace unseen::cuboids::test
