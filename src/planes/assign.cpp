@@ -140,7 +140,7 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
     for (std::size_t i = begin; i < end; ++i) {
       plane_of_point[i] = -1;
       const Vec3& p = block.positions[i];
-      if (!p.allFinite()) continue;
+      if (!grid.within.contains(p)) continue;
       const VoxelKey key = grid.key_of(p);
       if (voxel == -2 || key != last) {
         voxel = grid.find(key);

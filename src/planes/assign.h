@@ -42,7 +42,7 @@ void update_planes(Reach& reach, const Model& model);
 
 /// Plane of each point of a block: among those that reach it, and that its voxel's normal or its own does not
 /// contradict (45°), first those that do not end before it at another plane, then those that the normals speak
-/// for, then the nearest; −1 = none, or not finite. With `only_sure`, those of the first rank alone.
+/// for, then the nearest; −1 = none, or not in the grid's box. With `only_sure`, those of the first rank alone.
 void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, bool only_sure,
                    std::span<int> plane_of_point, const Context& context);
 

@@ -94,7 +94,10 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   VoxelGrid grid;
   {
     Stage stage(context, summary, "voxels");
-    grid = VoxelGrid(summarise(source, 0.5 * result.scale, seen.duplicate, context), context);
+    const VoxelBuilder voxels = summarise(source, 0.5 * result.scale, seen.within, seen.duplicate, context);
+    if (voxels.outside() > 0)
+      context.warn(fmt::format("{} of {} points lie far from all others and are left out", voxels.outside(), seen.finite));
+    grid = VoxelGrid(voxels, context);
     check_not_collinear(grid, space, info.name);
     if (!use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "planes/moments.h"
+#include "planes/voxels.h"
 #include "unseen/core/context.h"
 #include "unseen/core/point_cloud.h"
 #include "unseen/planes/options.h"
@@ -12,7 +13,8 @@ namespace unseen::planes {
 /// What a first look at a source tells.
 struct Survey {
   std::size_t points = 0, finite = 0, duplicates = 0;
-  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box of the finite points, m
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< bounding box of the points near others, m
+  Box within;                                    ///< points outside lie far from all others: they are left out
   std::size_t without_normal = 0;                ///< finite points whose normal has no usable length
   std::vector<bool> duplicate;  ///< per point: a twin of an earlier one; only for clouds in memory
   std::vector<Vec3> sample;     ///< an even share of the finite points, chosen by their coordinates alone

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -53,6 +55,52 @@ void find_duplicates(const PointCloud& cloud, Survey& survey) {
       survey.duplicate[order[i].point] = true;
       ++survey.duplicates;
     }
+}
+
+/// The box that holds all but a hundredth of the sample at either end of each axis, grown on all sides by ten
+/// times its longest edge.
+Box neighbourhood(const std::vector<Vec3>& sample) {
+  constexpr double kAtEachEnd = 0.01, kFar = 10.0;
+  std::vector<double> along(sample.size());
+  const auto rank = static_cast<std::ptrdiff_t>(kAtEachEnd * static_cast<double>(sample.size()));
+  Box box;
+  for (int a = 0; a < 3; ++a) {
+    std::transform(sample.begin(), sample.end(), along.begin(), [&](const Vec3& p) { return p[a]; });
+    std::nth_element(along.begin(), along.begin() + rank, along.end());
+    box.low[a] = along[rank];
+    std::nth_element(along.begin(), along.end() - 1 - rank, along.end());
+    box.high[a] = *(along.end() - 1 - rank);
+  }
+  const double margin = kFar * (box.high - box.low).maxCoeff();
+  return {box.low.array() - margin, box.high.array() + margin};
+}
+
+/// No-data values and a few points that lie far from all others would stand for the size of the scene: the box
+/// leaves them out, and then the sample speaks for the extent.
+void leave_out_strays(Survey& s) {
+  const Box box = neighbourhood(s.sample);
+  if (box.contains(s.low) && box.contains(s.high)) return;
+  s.within = box;
+  s.low.setConstant(std::numeric_limits<double>::infinity());
+  s.high = -s.low;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < s.sample.size(); ++i) {
+    if (!box.contains(s.sample[i])) continue;
+    s.low = s.low.cwiseMin(s.sample[i]);
+    s.high = s.high.cwiseMax(s.sample[i]);
+    if (s.has_normals()) s.sample_normals[kept] = s.sample_normals[i];
+    s.sample[kept++] = s.sample[i];
+  }
+  s.sample.resize(kept);
+  if (s.has_normals()) s.sample_normals.resize(kept);
+}
+
+/// Squares and cubes of lengths must be numbers.
+void check_extent(const Survey& s, const std::string& name) {
+  constexpr double kLongest = 1e75;  // m
+  if (s.extent() < kLongest) return;
+  throw InputError(name, "points", fmt::format("coordinates from {} to {}", s.low.minCoeff(), s.high.maxCoeff()),
+                   fmt::format("an extent below {} m", kLongest));
 }
 
 struct Sampled {
@@ -110,6 +158,8 @@ Survey survey(PointSource& source, Context& context) {
     throw InputError(source.info().name, "points",
                      s.points == 0 ? "none" : std::to_string(s.points) + ", none of them finite",
                      "at least three points that are not in a line");
+  leave_out_strays(s);
+  check_extent(s, source.info().name);
   return s;
 }
 

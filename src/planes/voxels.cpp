@@ -57,7 +57,11 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip) {
   VoxelSums* at = nullptr;
   for (std::size_t i = 0; i < block.size(); ++i) {
     const Vec3& p = block.positions[i];
-    if (!p.allFinite() || (!skip.empty() && skip[i])) continue;
+    if (!within_.contains(p)) {
+      outside_ += p.allFinite();
+      continue;
+    }
+    if (!skip.empty() && skip[i]) continue;
     VoxelKey key;
     std::array<std::int64_t, 3> q;
     for (int a = 0; a < 3; ++a) {
@@ -87,6 +91,7 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip) {
 }
 
 void VoxelBuilder::join(const VoxelBuilder& other) {
+  outside_ += other.outside_;
   for (std::size_t i = 0; i < other.sums_.size(); ++i) sums_of(other.keys()[i]) += other.sums_[i];
 }
 
@@ -122,7 +127,8 @@ void KeyTable::grow() {
   for (std::size_t k = 0; k < keys_.size(); ++k) slots_[slot(keys_[k])] = static_cast<std::uint32_t>(k + 1);
 }
 
-VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context) : edge(builder.edge()) {
+VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context)
+    : edge(builder.edge()), within(builder.within()) {
   const std::vector<int> place_of = place(builder.keys(), kRings, context);
   moments.resize(size());
   bool any_normals = false;
@@ -214,6 +220,7 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   for (const VoxelKey& k : keys) up.push_back({k[0] >> 1, k[1] >> 1, k[2] >> 1});
   VoxelGrid grid;
   grid.edge = 2.0 * edge;
+  grid.within = within;
   parent = grid.place(up, kCoarserRings, context);
   grid.moments.resize(grid.size());
   if (!normals.empty()) grid.normals.assign(grid.size(), Mat3::Zero());
@@ -224,8 +231,9 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   return grid;
 }
 
-VoxelBuilder summarise(PointSource& source, double edge, const std::vector<bool>& duplicate, Context& context) {
-  VoxelBuilder builder(edge);
+VoxelBuilder summarise(PointSource& source, double edge, const Box& within, const std::vector<bool>& duplicate,
+                       Context& context) {
+  VoxelBuilder builder(edge, within);
   const double total = static_cast<double>(source.info().point_count.value_or(0));
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     builder.add(block, duplicate);

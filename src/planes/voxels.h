@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "planes/moments.h"
@@ -12,6 +13,13 @@
 #include "unseen/core/point_cloud.h"
 
 namespace unseen::planes {
+
+/// What is near enough to be looked at; by default all that is finite. Not a number is in no box.
+struct Box {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::lowest());
+  Vec3 high = Vec3::Constant(std::numeric_limits<double>::max());
+  bool contains(const Vec3& p) const { return (p.array() >= low.array()).all() && (p.array() <= high.array()).all(); }
+};
 
 using VoxelKey = std::array<std::int32_t, 3>;
 
@@ -42,17 +50,19 @@ class KeyTable {
   std::vector<std::uint32_t> slots_;  ///< index + 1 into keys_, 0 = free; at most half are taken
 };
 
-/// Gathers points into voxels. Filled tile by tile; two builders of one grid can be joined exactly.
+/// Gathers the points of a box into voxels. Filled tile by tile; two builders of one grid can be joined exactly.
 class VoxelBuilder {
  public:
-  explicit VoxelBuilder(double edge) : edge_(edge) {}
+  explicit VoxelBuilder(double edge, const Box& within = {}) : edge_(edge), within_(within) {}
 
-  /// Adds every finite point of a block, except those for which skip[i] is set (empty = none).
+  /// Adds every point of a block that is in the box, except those for which skip[i] is set (empty = none).
   /// Throws InputError if a coordinate is too large for the grid (2³¹ voxels).
   void add(const PointCloud& block, const std::vector<bool>& skip = {});
   void join(const VoxelBuilder& other);
 
   double edge() const { return edge_; }
+  const Box& within() const { return within_; }
+  std::size_t outside() const { return outside_; }  ///< finite points that are not in the box
   const std::vector<VoxelKey>& keys() const { return table_.keys(); }
   const std::vector<VoxelSums>& sums() const { return sums_; }
 
@@ -60,6 +70,8 @@ class VoxelBuilder {
   VoxelSums& sums_of(const VoxelKey& key);
 
   double edge_;
+  Box within_;
+  std::size_t outside_ = 0;
   KeyTable table_;
   std::vector<VoxelSums> sums_;
 };
@@ -107,6 +119,7 @@ class VoxelGrid {
   VoxelGrid coarser(std::vector<int>& parent, const Context& context = Context()) const;
 
   double edge = 0;
+  Box within;  ///< what lies outside is in no voxel
   std::vector<VoxelKey> keys;
   std::vector<Moments> moments;
   std::vector<Mat3> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
@@ -137,8 +150,9 @@ class VoxelGrid {
   std::vector<std::uint32_t> block_of_;    ///< of each voxel
 };
 
-/// Reads the source once and sums its points into voxels of the given edge (m).
-VoxelBuilder summarise(PointSource& source, double edge, const std::vector<bool>& duplicate, Context& context);
+/// Reads the source once and sums its points within a box into voxels of the given edge (m).
+VoxelBuilder summarise(PointSource& source, double edge, const Box& within, const std::vector<bool>& duplicate,
+                       Context& context);
 
 /// Bits set; without the instruction, which the oldest 64-bit machines lack.
 inline int count_bits(std::uint64_t x) {

@@ -131,6 +131,31 @@ TEST(BadInput, SomeBadPointsDoNoHarm) {
   }
 }
 
+class Strays : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Values, Strays,
+                         testing::Values(0.0, -9999.0, -32768.0, 1e5, 1e10, 3.4028234663852886e38));
+
+/// No-data values and a few points far away change neither the scale nor the planes; how many is said.
+TEST_P(Strays, AreLeftOutWithAWarning) {
+  PointCloud cloud = box();
+  for (Vec3& p : cloud.positions) p += Vec3(500'000, 5'000'000, 300);
+  const test::Run clean = test::run(cloud, Options());
+  for (int i = 0; i < 5; ++i) cloud.positions.push_back(Vec3::Constant(GetParam()));
+  cloud.positions.emplace_back(500'900, 5'000'000, 300);
+  const test::Run dirty = test::run(cloud, Options());
+  EXPECT_EQ(dirty.result.scale, clean.result.scale);
+  ASSERT_EQ(dirty.result.planes.size(), 6u);
+  ASSERT_EQ(dirty.result.summary.warnings.size(), 1u);
+  EXPECT_NE(dirty.result.summary.warnings[0].find("6 of "), std::string::npos) << dirty.result.summary.warnings[0];
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    EXPECT_EQ(dirty.plane_of_point[i], i < clean.plane_of_point.size() ? clean.plane_of_point[i] : -1);
+}
+
+TEST(BadInput, CoordinatesWhoseDifferenceIsNoNumber) {
+  expect_refused(cloud_of({{0, 0, 0}, {0, 1, 0}, {1e308, 1, 5}, {-1e308, 3, 4}, {-1e308, -1e308, 1e308}, {3, 2, 1}}),
+                 Options(), "extent");
+}
+
 /// Zero normals: said, and no worse than none.
 TEST(BadInput, ZeroNormalsAreEstimatedInstead) {
   PointCloud cloud = box();
