@@ -36,9 +36,9 @@ Solid solid_of(const Body& body, const std::string& source);
 
 /// How the normal (from b to a) follows the bodies while the same features touch. Directions and points are in the principal frames.
 struct ContactLaw {
-  enum class Kind { constant, face_a, face_b, edges, centers };
+  enum class Kind { constant, level, face_a, face_b, edges, centers };
   Kind kind = Kind::constant;
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  ///< the constant normal (a); the face's outward one; both edges; two points, the normal leads from b to a
+  Vec3 a = Vec3::Zero(), b = Vec3::Zero();  ///< the constant normal (a; a level one is up); the face's outward one; both edges; two points, the normal leads from b to a
   Vec3 edge = Vec3::Zero();                 ///< of points: part that is left out, along the edge of whichever body is no sphere
   double sign = 1;                          ///< of edges
 };

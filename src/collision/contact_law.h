@@ -9,12 +9,13 @@
 
 namespace unseen::collision {
 
-/// The contact's normal at the bodies' places and orientations, with its derivatives.
+/// The contact's normal at the bodies' places and orientations and the vertical, with its derivatives.
 template <class T>
-Vec3T<T> normal_by(const ContactLaw& law, const std::array<Vec3T<T>, 2>& p, const std::array<QuatT<T>, 2>& q) {
+Vec3T<T> normal_by(const ContactLaw& law, const std::array<Vec3T<T>, 2>& p, const std::array<QuatT<T>, 2>& q, const Vec3T<T>& down) {
   const Vec3T<T> a = law.a.cast<T>(), b = law.b.cast<T>();
   switch (law.kind) {
     case ContactLaw::Kind::constant: return a;
+    case ContactLaw::Kind::level: return -down;
     case ContactLaw::Kind::face_a: return -(q[0] * a);
     case ContactLaw::Kind::face_b: return q[1] * b;
     case ContactLaw::Kind::edges: return ((q[0] * a).cross(q[1] * b) * T(law.sign)).normalized();

@@ -82,7 +82,7 @@ struct TouchTerm : Base {
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
     constexpr double kAlong = 0.6;  // of a feature's half extent
-    const Vec3T<T> n = normal_by<T>(touch.law, s.p, s.q);
+    const Vec3T<T> n = normal_by<T>(touch.law, s.p, s.q, s.down);
     for (int o = 0; o < 2; ++o) {
       T* out = r + 3 * o;
       if (o == 1 && problem.fixed) {
@@ -109,12 +109,12 @@ struct TouchTerm : Base {
 struct HeightTerm : Base {
   static constexpr int kResiduals = 1;
   OtherContact other;
-  Vec3 normal;
 
   template <class T>
   void of_state(const StateT<T>& s, T* r) const {
     constexpr double kSigma = 0.005;  // m: the other impact's time is known to a millisecond or two
-    r[0] = normal.cast<T>().dot(position_at<T>(problem, s, 0, other.after, other.time) - s.p[0]) / kSigma;
+    const Vec3T<T> n = problem.level ? Vec3T<T>(-s.down) : Vec3T<T>(problem.fixed_normal->cast<T>());
+    r[0] = n.dot(position_at<T>(problem, s, 0, other.after, other.time) - s.p[0]) / kSigma;
   }
 };
 

@@ -60,7 +60,7 @@ struct Problem {
   std::array<Solid, 2> solids;
   bool fixed = false;                  ///< the second body never moves
   std::optional<Vec3> fixed_normal;    ///< of the fixed body, towards the first
-  bool level = false;                  ///< that normal is not given: it is taken to be up
+  bool level = false;                  ///< the fixed body is a level floor: its normal is up by the state's own vertical
   std::optional<double> fixed_offset;  ///< of its plane along the normal, m, if known
   std::vector<OtherContact> other_contacts;  ///< with the same plane, before and after this impact
   std::optional<double> mass_ratio;    ///< known
@@ -82,6 +82,8 @@ struct Problem {
   bool turns(int body) const;
   /// Whether a body's shape is known, and how it is turned as far as that matters.
   bool has_pose(int body) const { return solids[body].is_sphere() || (solids[body].known_shape && turns(body)); }
+  /// Of the fixed body, towards the first; nothing if not known.
+  std::optional<Vec3> normal_of_fixed(const Vec3& down) const { return level ? std::optional(Vec3(-down)) : fixed_normal; }
   /// Whether two shapes meet that are both known.
   bool touches() const { return !fixed && has_pose(0) && has_pose(1); }
 };

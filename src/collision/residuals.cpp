@@ -122,8 +122,7 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
     adder.add("touch", TouchTerm{base, *touch, touch_sigma(problem)});
   else
     adder.add("midpoint", MidpointTerm{base});
-  if (problem.fixed_normal)
-    for (const OtherContact& other : problem.other_contacts) adder.add("height", HeightTerm{base, other, *problem.fixed_normal});
+  for (const OtherContact& other : problem.other_contacts) adder.add("height", HeightTerm{base, other});
   if (terms.soft) {
     constexpr double kWeight = 100.0;  // per m/s: the thesis's 10 against the mean squared error of a hundred centroids known to a third of a pixel
     if (terms.momentum && !problem.fixed) adder.add("momentum", MomentumTerm{base, kWeight});

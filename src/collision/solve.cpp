@@ -45,21 +45,26 @@ std::optional<Proximity> touch_of(const Problem& problem, const State& state) {
   const double tolerance = 0.03 * a.mass.extent;
   if (!problem.has_pose(0)) return std::nullopt;
   if (problem.fixed) {
-    if (!problem.fixed_normal) return std::nullopt;
+    const std::optional<Vec3> normal = problem.normal_of_fixed(state.down);
+    if (!normal) return std::nullopt;
     const bool along_impulse = a.is_sphere() && !problem.friction && state.impulse.norm() > 0.0;
-    return nearest_to_plane(a, state.p[0], state.q[0], along_impulse ? Vec3(state.impulse.normalized()) : *problem.fixed_normal, tolerance);
+    Proximity near = nearest_to_plane(a, state.p[0], state.q[0], along_impulse ? Vec3(state.impulse.normalized()) : *normal, tolerance);
+    if (problem.level && !along_impulse) near.law.kind = ContactLaw::Kind::level;
+    return near;
   }
   if (!problem.has_pose(1)) return std::nullopt;
   return nearest(a, state.p[0], state.q[0], problem.solids[1], state.p[1], state.q[1], tolerance);
 }
 
 /// How the contact's normal follows the bodies, where it does not follow the impulse.
-std::optional<ContactLaw> law_of(const Problem& problem, const std::optional<Proximity>& touch) {
+std::optional<ContactLaw> law_of(const Problem& problem, const State& state, const std::optional<Proximity>& touch) {
   if (!problem.friction) return std::nullopt;
   if (touch) return touch->law;
-  if (!problem.fixed || !problem.fixed_normal) return std::nullopt;
+  const std::optional<Vec3> normal = problem.fixed ? problem.normal_of_fixed(state.down) : std::nullopt;
+  if (!normal) return std::nullopt;
   ContactLaw law;
-  law.a = *problem.fixed_normal;
+  law.kind = problem.level ? ContactLaw::Kind::level : ContactLaw::Kind::constant;
+  law.a = *normal;
   return law;
 }
 
@@ -181,7 +186,7 @@ Fit try_out(const Problem& problem, const State& start) {
   Fit fit;
   fit.state = start;
   fit.touch = touch_of(problem, start);
-  fit.state.law = law_of(problem, fit.touch);
+  fit.state.law = law_of(problem, fit.state, fit.touch);
   fit.usable = descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
   fit.state.law.reset();
   return fit;
@@ -196,11 +201,11 @@ Fit settle(const Problem& problem, const State& start) {
     const double cost_before = fit.cost;
     fit.touch = touch_of(problem, fit.state);
     if (fit.touch && !fit.state.law) {
-      fit.state.law = law_of(problem, fit.touch);
+      fit.state.law = law_of(problem, fit.state, fit.touch);
       fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
       descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
     }
-    fit.state.law = law_of(problem, fit.touch);
+    fit.state.law = law_of(problem, fit.state, fit.touch);
     fit.usable = descend(problem, fit.touch, kIterations, fit.state, fit.cost);
     if (!fit.usable || !fit.touch || (before && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
   }

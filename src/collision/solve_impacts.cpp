@@ -15,12 +15,10 @@ namespace {
 constexpr double kFloor = 0.35;     // rad: an impulse that is this near to the vertical comes from a floor
 constexpr double kMostDrag = 1.0;   // 1/m: a table-tennis ball has 0.13
 
-void add_floor(Problem& problem, State& state) {
+void add_floor(Problem& problem, const State& state) {
   if (!problem.fixed || problem.gravity == 0.0) return;
   const Vec3 up = -state.down;
-  if (line_angle(up, state.impulse) > kFloor || state.impulse.dot(up) <= 0.0) return;
-  problem.fixed_normal = up;
-  problem.level = true;
+  problem.level = line_angle(up, state.impulse) <= kFloor && state.impulse.dot(up) > 0.0;
 }
 
 void settle_again(SolvedImpact& impact) {
@@ -102,7 +100,6 @@ void share_gravity(std::vector<SolvedImpact>& impacts) {
     impact.solution.problem.down = sum.normalized();
     impact.solution.problem.down_sigma = std::max(impact.solution.problem.filmed ? kFilmed : kSurest, 1.0 / std::sqrt(precision));
     impact.solution.fit.state.down = sum.normalized();
-    if (impact.solution.problem.level) add_floor(impact.solution.problem, impact.solution.fit.state);
     settle_again(impact);
   }
 }
@@ -111,7 +108,7 @@ void share_floor(std::vector<SolvedImpact>& impacts) {
   constexpr int kRounds = 2;
   const auto one_floor = [](const SolvedImpact& impact) {
     const Problem& p = impact.solution.problem;
-    return p.fixed && p.fixed_normal && p.solids[0].is_sphere();
+    return p.fixed && (p.level || p.fixed_normal) && p.solids[0].is_sphere();
   };
   for (int round = 0; round < kRounds; ++round) {
     for (std::size_t k = 0; k < impacts.size(); ++k) {

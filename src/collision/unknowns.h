@@ -83,7 +83,7 @@ Vec3T<T> contact_velocity(const Problem& problem, const StateT<T>& s, int o, boo
 /// The contact's normal, from b to a: that of the shapes, or the impulse's direction.
 template <class T>
 Vec3T<T> contact_normal(const State& reference, const StateT<T>& s) {
-  if (reference.law) return normal_by<T>(*reference.law, s.p, s.q);
+  if (reference.law) return normal_by<T>(*reference.law, s.p, s.q, s.down);
   using std::sqrt;
   return s.impulse / sqrt(s.impulse.squaredNorm() + 1e-20);
 }
