@@ -91,6 +91,7 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
     if (alike && found && problem.turns(o))
       remarks.push_back(fmt::format("{}: two of its sides differ by {:.0f} % only; it may be turned by 90° about the third", name, 100.0 * *alike));
   }
+  if (problem.level) remarks.push_back(fmt::format("{}: taken to be level; give its \"normal\" if it is not", shot.bodies[1].name));
   if (!fit.state.law) remarks.push_back("the contact's normal is taken to be the impulse's direction: friction is not told from restitution");
   return remarks;
 }
@@ -157,10 +158,14 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
   for (const SolvedImpact& impact : impacts) tellers.push_back({impact, result.T_world_camera.rotation});
 
   std::vector<Estimate> restitutions;
+  std::vector<Vec3> common;
   double used = 0.0, held_out = 0.0;
   for (const Teller& teller : tellers) {
     result.impacts.push_back(teller.describe(clock));
-    if (teller.impact.check.fits && within_bounds(teller.impact)) restitutions.push_back(teller.impact.uncertain.restitution);
+    if (teller.impact.check.fits && within_bounds(teller.impact)) {
+      restitutions.push_back(teller.impact.uncertain.restitution);
+      common.push_back(teller.impact.uncertain.common);
+    }
     used += std::pow(teller.impact.check.used_rms, 2) / static_cast<double>(tellers.size());
     held_out += std::pow(teller.impact.check.held_out_rms, 2) / static_cast<double>(tellers.size());
     add_residuals(teller.impact, result);
@@ -169,7 +174,7 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
   result.held_out_rms = std::sqrt(held_out);
   result.fits = !restitutions.empty();
   if (result.fits) {
-    const Estimate c = pooled(restitutions);
+    const Estimate c = pooled(restitutions, common);
     const bool one_collision = problem.fixed || tracks.collisions_seen <= 1;
     if (c.sd < kSureEnough && one_collision) result.restitution = c;
     if (!problem.fixed && one_collision) result.mass_ratio = first.uncertain.mass_ratio;

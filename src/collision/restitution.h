@@ -9,6 +9,6 @@
 namespace unseen::collision {
 
 /// One value from several estimates of the same thing: weighted by their precision; no surer than they agree.
-Estimate pooled(const std::vector<Estimate>& estimates);
+Estimate pooled(const std::vector<Estimate>& estimates, const std::vector<Vec3>& common = {});
 
 }  // namespace unseen::collision

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "collision/restitution.h"
 #include "collision/shot_problem.h"
 #include "collision/unknowns.h"
+#include "collision/vertical.h"
 
 namespace unseen::collision {
 namespace {
@@ -28,6 +30,17 @@ void settle_again(SolvedImpact& impact) {
 
 /// Whether the second impact ends the flight that the first begins.
 bool share_flight(const SolvedImpact& first, const SolvedImpact& second) { return first.meeting.after == second.meeting.before; }
+
+/// Share of the impacts' sightings that are not another's too: a flight between two impacts counts for both.
+double distinct_share(const std::vector<SolvedImpact>& impacts) {
+  std::set<std::pair<int, int>> distinct;
+  std::size_t count = 0;
+  for (const SolvedImpact& impact : impacts) {
+    for (const PointObservation& p : impact.solution.problem.points) distinct.insert({p.body, p.frame});
+    count += impact.solution.problem.points.size();
+  }
+  return static_cast<double>(distinct.size()) / static_cast<double>(std::max<std::size_t>(1, count));
+}
 
 /// The drag with the lowest cost, by golden section.
 double best_drag(const std::vector<SolvedImpact>& impacts) {
@@ -86,21 +99,22 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
 
 void share_gravity(std::vector<SolvedImpact>& impacts) {
   constexpr double kSurest = 0.003, kFilmed = 0.03;  // rad: regions are lopsided, which bends flights as another gravity would
-  if (impacts.size() < 2) return;
-  // Precision in the plane across the expected direction; each impact's own tilt counts by it.
-  Vec3 sum = Vec3::Zero();
-  double precision = 0.0;
+  if (impacts.size() < 2 || impacts.front().solution.problem.gravity == 0.0) return;
+  std::vector<Vertical> seen;
   for (SolvedImpact& impact : impacts) {
     add_covariance(impact.solution.problem, impact.solution.fit);
-    const double variance = impact.solution.fit.covariance.block<2, 2>(kDown, kDown).trace();
-    if (variance > 0.0) sum += impact.solution.fit.state.down / variance, precision += 1.0 / variance;
+    seen.push_back(seen_vertical(impact.solution.problem, impact.solution.fit));
   }
-  if (precision == 0.0) return;
-  for (SolvedImpact& impact : impacts) {
-    impact.solution.problem.down = sum.normalized();
-    impact.solution.problem.down_sigma = std::max(impact.solution.problem.filmed ? kFilmed : kSurest, 1.0 / std::sqrt(precision));
-    impact.solution.fit.state.down = sum.normalized();
-    settle_again(impact);
+  const double share = distinct_share(impacts);
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    Problem& problem = impacts[i].solution.problem;
+    Vertical known = expected_vertical(problem);
+    for (std::size_t j = 0; j < impacts.size(); ++j)
+      if (j != i) known.add(seen[j], share);
+    const auto [down, sigma] = likeliest(known, impacts[i].solution.fit.state.down);
+    problem.down = down;
+    problem.down_sigma = std::max(problem.filmed ? kFilmed : kSurest, sigma);
+    settle_again(impacts[i]);
   }
 }
 

@@ -12,11 +12,11 @@
 namespace unseen::collision {
 
 /// Solves each meeting of the tracks from its centres alone; meetings that no start leads to are left out. What is fixed and has no normal
-/// counts as a floor if the impulse is nearly vertical. With `drag` = "estimate" all impacts share the drag that explains them best.
+/// counts as a level floor if the impulse is nearly vertical. With `drag` = "estimate" all impacts share the drag that explains them best.
 std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
                                           const Tracks& tracks, Context& context);
 
-/// Solves the impacts again with one direction of gravity, that of all of them weighted by what each tells.
+/// Solves each impact again with what the others tell of the direction of gravity.
 void share_gravity(std::vector<SolvedImpact>& impacts);
 
 /// Solves bounces of a ball again that follow each other on the same floor: it is as high at each of them. That tells of motion along the view ray.

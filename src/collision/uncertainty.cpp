@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "collision/level_floor.h"
 #include "collision/unknowns.h"
 #include "unseen/core/random.h"
 
@@ -107,7 +108,9 @@ void widen(Estimate& e, double sd, double low, double high) {
 Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& context) {
   const Problem& problem = solution.problem;
   add_covariance(problem, solution.fit);
-  Uncertain result{restitution_of(problem, solution.fit), mass_ratio_of(problem, solution.fit)};
+  doubt_level(solution);
+  Uncertain result{restitution_of(problem, solution.fit), mass_ratio_of(problem, solution.fit), error_by_vertical(problem, solution.fit)};
+  const double by_covariance = result.restitution.sd;
   result.restitution.value = std::clamp(result.restitution.value, 0.0, 1.0);
   const Residuals residuals = residuals_of(problem, solution.fit.state);
   const double unknowns = 18.0, count = 2.0 * static_cast<double>(problem.points.size());
@@ -126,12 +129,15 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
     }
   });
   double c_spread = deviation(c, result.restitution.value), m_spread = deviation(m, result.mass_ratio.value);
+  const double c_noise = std::max(c_spread, by_covariance);
   for (const Alternative& other : solution.others) {  // half as likely as the best where χ² is as low
     const double share = std::exp(-0.5 * other.excess);
     c_spread = std::max(c_spread, share * std::abs(other.restitution - result.restitution.value) / 1.96);
     m_spread = std::max(m_spread, share * std::abs(other.mass_ratio - result.mass_ratio.value) / 1.96);
   }
+  if (problem.level && c_spread > c_noise) c_spread = std::hypot(c_spread, c_noise);  // another floor's value is as noisy
   widen(result.restitution, c_spread, 0.0, 1.0);
+  if (by_covariance > 0.0) result.common *= result.restitution.sd / by_covariance;
   widen(result.mass_ratio, m_spread, 0.0, std::numeric_limits<double>::infinity());
   return result;
 }

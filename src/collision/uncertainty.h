@@ -8,6 +8,7 @@ namespace unseen::collision {
 
 struct Uncertain {
   Estimate restitution, mass_ratio;
+  Vec3 common = Vec3::Zero();  ///< part of the restitution's error that impacts of a shot share, as `error_by_vertical` has it
 };
 
 /// Value, deviation and 95 % interval of restitution and mass ratio: from the covariance, widened by what `resamples` solves on resampled

@@ -101,5 +101,30 @@ TEST(LevelFloor, ARolledCameraReadsTheRestitution) {
   }
 }
 
+/// A ball that falls straight on a floor tilted by 15°, as one that spins would leave a level one.
+TEST(LevelFloor, ATiltThatNoFrictionExplainsIsToldAndCounted) {
+  Shot shot = filmed({{0, -2.2, 0.7}, 0, 0, {0, 0, 1.0}, {0, 0, -0.5}, 15, 1, 45}, 1);
+  shot.down = Vec3::UnitY();
+  Context context;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  ASSERT_TRUE(r.restitution);
+  EXPECT_LE(r.restitution->low, kC);
+  EXPECT_GE(r.restitution->high, kC);
+  ASSERT_FALSE(r.ambiguous.empty());
+  EXPECT_NEAR(r.ambiguous.front().restitution, kC, 0.03);
+  EXPECT_TRUE(std::any_of(r.observability.begin(), r.observability.end(), [](const std::string& s) { return s.find("taken to be level") != std::string::npos; }));
+}
+
+TEST(LevelFloor, AnOrdinaryBounceIsNotAmbiguous) {
+  Context context;
+  EXPECT_TRUE(reconstruct(filmed({{0, -2.2, 0.7}, 0, 20, {-0.5, 0, 1.1}, {0.7, 0, 0}, 0, 1, 50}, 1), {}, context).ambiguous.empty());
+}
+
+TEST(Restitution, ErrorsThatImpactsShareDoNotAverageOut) {
+  const std::vector<Estimate> two = {{0.7, 0.02, 0, 0}, {0.7, 0.02, 0, 0}};
+  EXPECT_NEAR(pooled(two).sd, 0.02 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(pooled(two, {Vec3(0.02, 0, 0), Vec3(0.02, 0, 0)}).sd, 0.02, 1e-12);
+}
+
 }  // namespace
 }  // namespace unseen::collision

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/level_floor.h"
+
+#include <ceres/jet.h>
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "collision/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kStops = 0.4;       // of a hollow ball's speed: the most that friction takes from one that does not spin
+constexpr double kLeast = 0.08;      // rad: a smaller tilt moves the restitution by a hundredth or less
+constexpr double kUnlikely = 13.8;   // χ² of two numbers that chance exceeds once in a thousand
+
+using Wide = ceres::Jet<double, kUnknowns>;
+
+StateT<Wide> wide_state(const Problem& problem, const State& state) {
+  std::array<Wide, kUnknowns> u;
+  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(0.0, i);
+  return unpack<Wide>(problem, state, u.data());
+}
+
+/// Σ^(−1/2) or Σ^(−1) of a covariance without full rank.
+Mat3 power_of(const Mat3& covariance, double exponent) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(covariance);
+  Vec3 powers = Vec3::Zero();
+  for (int i = 0; i < 3; ++i)
+    if (eigen.eigenvalues()[i] > 1e-9 * eigen.eigenvalues()[2]) powers[i] = std::pow(eigen.eigenvalues()[i], exponent);
+  return eigen.eigenvectors() * powers.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+/// What of the impulse along a level floor no friction explains, over the impulse along its normal; with derivatives.
+Vec3T<Wide> unexplained(const StateT<Wide>& s) {
+  const Vec3T<Wide> n = -s.down, along = s.impulse - n * s.impulse.dot(n), sliding = s.v[0] - n * s.v[0].dot(n);
+  const Wide speed = sliding.squaredNorm();
+  const double slowed = speed.a > 1e-9 ? std::clamp(-along.dot(sliding).a / speed.a, 0.0, kStops) : 0.0;
+  return (along + sliding * Wide(slowed)) / s.impulse.dot(n);
+}
+
+}  // namespace
+
+void doubt_level(Solution& solution) {
+  const Problem& problem = solution.problem;
+  const Fit& fit = solution.fit;
+  if (!problem.level || !problem.friction || !problem.solids[0].is_sphere() || problem.turns(0) || fit.covariance.size() == 0) return;
+  const StateT<Wide> s = wide_state(problem, fit.state);
+  const Vec3T<Wide> off = unexplained(s);
+  const Vec3 lean(off[0].a, off[1].a, off[2].a);
+  Eigen::Matrix<double, 3, kUnknowns> slopes;
+  for (int i = 0; i < 3; ++i) slopes.row(i) = off[i].v.transpose();
+  const Mat3 covariance = slopes * fit.covariance * slopes.transpose();
+  if (lean.norm() < kLeast || lean.dot(power_of(covariance, -1.0) * lean) < kUnlikely) return;
+  State tilted = fit.state;
+  tilted.law.reset();
+  const double c = std::clamp(restitution<double>(problem, tilted, values_of(problem, tilted)), 0.0, 1.0);
+  const double tilt = degrees(line_angle(fit.state.impulse, fit.state.down));
+  solution.others.push_back({fmt::format("a floor that is tilted by {:.0f}°, where a level one needs a ball that spins: c = {:.2f}", tilt, c), c, fit.state.mass_ratio, 0.0});
+}
+
+Vec3 error_by_vertical(const Problem& problem, const Fit& fit) {
+  if (problem.gravity == 0.0 || fit.covariance.size() == 0) return Vec3::Zero();
+  const StateT<Wide> s = wide_state(problem, fit.state);
+  const Wide c = restitution<Wide>(problem, fit.state, s);
+  Eigen::Matrix<double, 3, kUnknowns> slopes;
+  for (int i = 0; i < 3; ++i) slopes.row(i) = s.down[i].v.transpose();
+  const Vec3 shared = slopes * fit.covariance * c.v;
+  const Mat3 covariance = slopes * fit.covariance * slopes.transpose();
+  if (covariance.trace() < 1e-16) return Vec3::Zero();
+  return power_of(covariance, -0.5) * shared;
+}
+
+}  // namespace unseen::collision
