@@ -17,6 +17,7 @@ constexpr double kSizeSpread = 0.22;    // of the logarithm of the diameter
 constexpr double kCap = 16.0;           // σ²
 constexpr std::size_t kMost = 30;       // candidates a frame, the largest
 constexpr double kLargestShare = 0.15;  // of the picture
+constexpr double kCaster = 0.3;         // of a shadow's area: what casts it has more
 
 /// The pixel without lens distortion.
 Vec2 undistorted(const Vec2& pixel, const ShotCamera& camera) {
@@ -47,9 +48,17 @@ std::vector<double> whole_discs(const Footage& footage) {
   return diameters;
 }
 
+/// Whether the region is a shadow rather than a body.
+bool is_shadow(const Region& region, const std::vector<Region>& frame, DarkBodies dark) {
+  if (!region.shadow || region.sign == ShadowSign::texture) return region.shadow;
+  const bool light = region.sign == ShadowSign::light, all = dark == DarkBodies::all;
+  const bool cast = std::any_of(frame.begin(), frame.end(), [&](const Region& r) { return !r.shadow && r.area > kCaster * region.area; });
+  return light ? cast && !all : cast || !all;
+}
+
 }  // namespace
 
-Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres) {
+Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres, DarkBodies dark) {
   Candidates candidates(footage.regions.size());
   const double largest = kLargestShare * footage.width * footage.height;
   const std::vector<double> wholes = spheres ? whole_discs(footage) : std::vector<double>();
@@ -74,7 +83,7 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
       c.color = r.color;
       c.colored = true;
       c.whole = !r.at_border && (!r.covered || disc);
-      c.shadow = r.shadow;
+      c.shadow = is_shadow(r, footage.regions[k], dark);
       c.region = static_cast<int>(i);
       candidates[k].push_back(c);
     }

@@ -25,7 +25,11 @@ struct Candidate {
 
 using Candidates = std::vector<std::vector<Candidate>>;  ///< by frame
 
-Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres);
+/// Which regions that could be shadows are taken for dark bodies: those that nothing but their light speaks against and that no body beside
+/// them casts; or all of the first kind, and those of the background's colour that no body casts.
+enum class DarkBodies { usual, all };
+
+Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres, DarkBodies dark = DarkBodies::usual);
 Candidates candidates_of(const std::vector<Sighting>& sightings, const ShotCamera& camera);
 
 /// How unlike two candidates look, in σ², capped.

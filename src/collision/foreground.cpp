@@ -6,6 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/shadow.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -16,14 +18,6 @@ constexpr int kFewestSeeds = 5;                // pixels above the high threshol
 constexpr double kSmallest = 20.0;             // px
 constexpr double kSmallestShare = 1e-5;        // of the picture
 constexpr double kLargestShare = 0.3;           // of the picture that a part's box may fill to be looked at more closely
-constexpr double kShadowLeast = 0.25, kShadowMost = 0.97;  // of the background's light
-constexpr double kShadowSigmas = 3.0, kShadowGray = 7.0;   // off the background's colour
-constexpr double kWeak = 0.5;                  // of a part's contrast: what is weaker is a shadow already if
-constexpr double kWeakGray = 0.1;              // of a pixel's brightness off the background's colour, where that is
-constexpr int kBright = 200;                   // grey levels or brighter: there sensors begin to clip
-constexpr double kSide = 0.5;                  // of the rest: more is no side of it
-constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
-constexpr double kShadowWhole = 0.85;          // share of a part that makes it a shadow
 constexpr double kCore = 0.15;                 // share of a part that must be left when its shadow is cut off
 constexpr double kHalf = 0.45;                 // of the local contrast
 constexpr int kContrastReach = 9;              // px, window of the local contrast
@@ -57,25 +51,6 @@ cv::Mat threshold_of(const Background& background, double edge_slack) {
   return bytes;
 }
 
-/// 255 where a pixel could be the background with less light: the same colour, darker. Where the difference from the background is
-/// below `weak` and the background is nearly clipped, the colour may be farther off: bright surfaces lose their tint.
-cv::Mat shadow_mask(const cv::Mat& frame, const cv::Mat& background, const cv::Mat& noise, const cv::Mat& difference, int weak) {
-  cv::Mat mask = cv::Mat::zeros(frame.size(), CV_8U);
-  for (int y = 0; y < frame.rows; ++y)
-    for (int x = 0; x < frame.cols; ++x) {
-      const cv::Vec3b &f = frame.at<cv::Vec3b>(y, x), &b = background.at<cv::Vec3b>(y, x);
-      const double bb = b.ddot(b), fb = f.ddot(b), share = bb > 0.0 ? fb / bb : 1.0;
-      if (share < kShadowLeast || share > kShadowMost) continue;
-      double limit = std::max(kShadowGray, kShadowSigmas * noise.at<float>(y, x));
-      const bool bright = std::max({b[0], b[1], b[2]}) >= kBright;
-      if (bright && difference.at<unsigned char>(y, x) < weak) limit = std::max(limit, kWeakGray * share * std::sqrt(bb));
-      bool same = true;
-      for (int c = 0; c < 3; ++c) same = same && std::abs(f[c] - share * b[c]) < limit;
-      if (same) mask.at<unsigned char>(y, x) = 255;
-    }
-  return mask;
-}
-
 /// Cuts off pixels near the outline whose contrast is below half of what is next to them: they are more background than object.
 void sharpen_outline(cv::Mat& mask, const cv::Mat& difference) {
   cv::Mat contrast, inside, limit;
@@ -101,35 +76,6 @@ bool largest_piece(cv::Mat& mask) {
   return true;
 }
 
-/// The difference that one in ten of the part's pixels exceeds.
-double high_contrast(const cv::Mat& difference, const cv::Mat& mask) {
-  std::vector<unsigned char> values;
-  for (int y = 0; y < mask.rows; ++y)
-    for (int x = 0; x < mask.cols; ++x)
-      if (mask.at<unsigned char>(y, x)) values.push_back(difference.at<unsigned char>(y, x));
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 9 / 10);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-/// Takes out of `shadow` the pieces that lie within the convex hull of the rest of `mask`: a shadow falls beside its body.
-void keep_shaded_sides(const cv::Mat& mask, cv::Mat& shadow) {
-  cv::Mat lit = mask & ~shadow, labels, stats, centers;
-  cv::morphologyEx(lit, lit, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
-  std::vector<cv::Point> points, corners;
-  cv::findNonZero(lit, points);
-  if (points.size() < 3) return;
-  cv::convexHull(points, corners);
-  cv::Mat hull = cv::Mat::zeros(mask.size(), CV_8U);
-  cv::fillConvexPoly(hull, corners, cv::Scalar(255));
-  const int count = cv::connectedComponentsWithStats(shadow, labels, stats, centers, 4);
-  for (int i = 1; i < count; ++i) {
-    const cv::Mat piece = labels == i;
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA);
-    if (area < kSide * static_cast<double>(points.size()) && cv::countNonZero(piece & hull) >= kWithin * area) shadow.setTo(0, piece);
-  }
-}
-
 cv::Rect padded(cv::Rect box, int by, cv::Size size) {
   return cv::Rect(box.x - by, box.y - by, box.width + 2 * by, box.height + 2 * by) & cv::Rect({0, 0}, size);
 }
@@ -137,13 +83,13 @@ cv::Rect padded(cv::Rect box, int by, cv::Size size) {
 /// The part without its shadow and blur; false if nothing of it is left.
 bool refine(const cv::Mat& frame, const Background& background, const cv::Mat& d, Part& part) {
   const cv::Mat contrast = d(part.box);
-  const int weak = static_cast<int>(kWeak * high_contrast(contrast, part.mask));
-  cv::Mat shadow = shadow_mask(frame(part.box), background.picture(part.box), background.noise(part.box), contrast, weak) & part.mask;
+  const Background behind{background.picture(part.box), background.noise(part.box)};
+  const Shade shade = find_shade(frame(part.box), behind, contrast, part.mask);
   const int area = cv::countNonZero(part.mask);
-  part.shadow = cv::countNonZero(shadow) > kShadowWhole * area;
+  part.shadow = shade.whole;
+  part.sign = shade.sign;
   if (!part.shadow) {
-    keep_shaded_sides(part.mask, shadow);
-    cv::Mat lit = part.mask & ~shadow;
+    cv::Mat lit = part.mask & ~shade.mask;
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
     cv::morphologyEx(lit, lit, cv::MORPH_OPEN, element, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
     cv::morphologyEx(lit, lit, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
@@ -189,7 +135,7 @@ std::vector<Part> find_parts(const cv::Mat& frame, const Background& background,
     if (area < smallest) continue;
     const cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP), stats.at<int>(i, cv::CC_STAT_WIDTH),
                        stats.at<int>(i, cv::CC_STAT_HEIGHT));
-    Part part{padded(box, 6, frame.size()), {}, false};
+    Part part{padded(box, 6, frame.size()), {}, false, {}};
     part.mask = labels(part.box) == i;
     if (cv::countNonZero(seeds(part.box) & part.mask) < std::max<double>(kFewestSeeds, kSeedShare * area)) continue;
     if (box.area() > kLargestShare * static_cast<double>(frame.total())) {  // no body: a person, or another light
@@ -224,6 +170,7 @@ Region describe_part(const Part& part, const cv::Mat& frame, int index, int scal
   const cv::Rect whole = tight + part.box.tl();
   region.at_border = whole.x <= 1 || whole.y <= 1 || whole.br().x >= frame.cols - 1 || whole.br().y >= frame.rows - 1;
   region.shadow = part.shadow;
+  region.sign = part.sign;
   return region;
 }
 

@@ -15,10 +15,11 @@ struct Part {
   cv::Rect box;
   cv::Mat mask;         ///< 8 bit, of `box`
   bool shadow = false;  ///< all of it could be the background with less light
+  ShadowSign sign = ShadowSign::light;
 };
 
 /// Parts of a frame where it differs from the background (already brought to the frame's brightness and place) by more than the noise:
-/// low threshold where it is joined to a high one, attached shadows cut off by chromaticity (Horprasert et al., 1999), outline where the
+/// low threshold where it is joined to a high one, attached shadows cut off, outline where the
 /// local contrast halves. `edge_slack`: px by which the background may be out of place.
 std::vector<Part> find_parts(const cv::Mat& frame, const Background& background, double edge_slack);
 

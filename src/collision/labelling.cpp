@@ -28,13 +28,40 @@ Tracks label(const Shot& shot, const ShotCamera& camera, Candidates candidates, 
   return find_chain(shot, candidates, body, fps, least_noise, context);
 }
 
+bool differ(const Candidates& a, const Candidates& b) {
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (!std::equal(a[k].begin(), a[k].end(), b[k].begin(), b[k].end(), [](const Candidate& c, const Candidate& d) { return c.shadow == d.shadow; })) return true;
+  return false;
+}
+
+/// Labels the regions of a film; where nothing collides, with more of what is dark taken for bodies.
+Tracks label_regions(const Shot& shot, const ShotCamera& camera, const Footage& footage, bool spheres, Context& context) {
+  const auto tracks_of = [&](const Candidates& candidates, Context& heard) { return label(shot, camera, candidates, footage.fps, kLeastRegionNoise, heard); };
+  const auto trial = [&] {
+    Context quiet = context;
+    quiet.on_message = {};
+    (void)quiet.take_warnings();
+    return quiet;
+  };
+  Context usual = trial(), all = trial();
+  const Candidates candidates = candidates_of(footage, camera, spheres), darker = candidates_of(footage, camera, spheres, DarkBodies::all);
+  Tracks tracks = tracks_of(candidates, usual);
+  Context* heard = &usual;
+  if (tracks.meetings.empty() && differ(candidates, darker)) {
+    Tracks others = tracks_of(darker, all);
+    if (!others.meetings.empty()) tracks = std::move(others), heard = &all;
+  }
+  for (std::string& warning : heard->take_warnings()) context.warn(std::move(warning));
+  return tracks;
+}
+
 }  // namespace
 
 Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const Footage& footage, Context& context) {
   const bool spheres = std::all_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& b) {
     return b.shape == Shape::sphere || b.shape == Shape::fixed;
   });
-  Tracks tracks = label(shot, camera, candidates_of(footage, camera, spheres), footage.fps, kLeastRegionNoise, context);
+  Tracks tracks = label_regions(shot, camera, footage, spheres, context);
   if (only_free_body(shot) < 0) label_by_shape(shot, camera, footage, tracks);
   return tracks;
 }

@@ -11,6 +11,10 @@
 
 namespace unseen::collision {
 
+/// What tells that a region is a shadow: nothing but that it is darker than the background, as a grey body in a grey picture is; that it has the
+/// background's colour too; or that the background's texture is seen in it.
+enum class ShadowSign { light, color, texture };
+
 /// Something that moves before the background, in one frame. Pixels of the decoded frame, not undistorted.
 struct Region {
   int frame = 0;
@@ -24,6 +28,7 @@ struct Region {
   bool at_border = false;     ///< cut by the picture's (or the roi's) edge
   bool covered = false;       ///< cut by something before the scene
   bool shadow = false;        ///< all of it could be the background with less light
+  ShadowSign sign = ShadowSign::light;  ///< if it is
 };
 
 /// A video's moving regions, with what was found out about the video itself.

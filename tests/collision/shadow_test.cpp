@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/shadow.h"
+
+#include <gtest/gtest.h>
+
+#include "collision/candidates.h"
+#include "collision/regions.h"
+#include "collision/tracks.h"
+#include "little_videos.h"
+
+namespace unseen::collision::test {
+namespace {
+
+/// Bounces once, off a floor at 210 px, in frame 20.
+Vec2 bouncing(int k) {
+  const double t = k - 20.0;
+  return {40.0 + 6.0 * k, 198.0 - (t < 0 ? -14.0 : 10.0) * t + 0.35 * t * t};
+}
+
+/// A wall of one colour, a little lighter on one side.
+cv::Mat plain(const cv::Scalar& color) {
+  cv::Mat picture(kHeight, kWidth, CV_8UC3);
+  for (int x = 0; x < kWidth; ++x) picture.col(x).setTo(color * (0.95 + 0.1 * x / kWidth));
+  return picture;
+}
+
+/// A matt ball lit from the upper left, four shades in a pixel.
+void draw_ball(cv::Mat& frame, const Vec2& center, double radius, const cv::Scalar& color) {
+  const Vec3 lamp = Vec3(-0.4, -0.8, 0.5).normalized();
+  for (int y = 0; y < frame.rows; ++y)
+    for (int x = 0; x < frame.cols; ++x)
+      for (int i = 0; i < 4; ++i) {
+        const Vec2 d = (Vec2(x + 0.25 - 0.5 * (i & 1), y + 0.25 - 0.5 * (i >> 1)) - center) / radius;
+        if (d.squaredNorm() >= 1.0) continue;
+        const double light = 0.45 + 0.6 * std::max(0.0, lamp.dot(Vec3(d.x(), d.y(), std::sqrt(1.0 - d.squaredNorm()))));
+        cv::Vec3b& p = frame.at<cv::Vec3b>(y, x);
+        for (int c = 0; c < 3; ++c) p[c] = cv::saturate_cast<unsigned char>(p[c] + (light * color[c] - p[c]) / (4 - i));
+      }
+}
+
+void draw_shadow(cv::Mat& frame, const Vec2& center, double radius) {
+  cv::Mat light(frame.size(), CV_32FC3, cv::Scalar(1, 1, 1));
+  draw_disc(light, center, radius, cv::Scalar(0.6, 0.6, 0.6));
+  cv::GaussianBlur(light, light, {7, 7}, 2.0);
+  cv::Mat lit;
+  frame.convertTo(lit, CV_32FC3);
+  lit = lit.mul(light);
+  lit.convertTo(frame, CV_8UC3);
+}
+
+cv::Mat gray(const cv::Mat& frame) {
+  cv::Mat one, three;
+  cv::cvtColor(frame, one, cv::COLOR_BGR2GRAY);
+  cv::cvtColor(one, three, cv::COLOR_GRAY2BGR);
+  return three;
+}
+
+Footage film(const std::string& name, const std::function<cv::Mat(int)>& draw) {
+  const Scratch scratch(name);
+  Shot shot;
+  shot.name = shot.video = scratch.file("clip.avi");
+  Random random(4);
+  write_video(shot.video, 40, [&](int k) {
+    cv::Mat frame = draw(k);
+    add_noise(frame, 2.0, random);
+    return frame;
+  });
+  Context context;
+  return find_regions(shot, context);
+}
+
+Shot bounce_shot() {
+  Shot shot;
+  shot.name = shot.video = "clip";
+  shot.bodies.resize(2);
+  shot.bodies[0].name = "ball";
+  shot.bodies[0].shape = Shape::sphere;
+  shot.bodies[0].radius = 0.03;
+  shot.bodies[1].name = "floor";
+  shot.bodies[1].shape = Shape::fixed;
+  return shot;
+}
+
+/// Meetings found in a film of a bouncing ball.
+std::size_t bounces(const Footage& footage) {
+  const Shot shot = bounce_shot();
+  ShotCamera camera;
+  camera.camera = {300.0, 300.0, 159.5, 119.5, kWidth, kHeight};
+  Context context;
+  return find_tracks(shot, camera, footage, context).meetings.size();
+}
+
+TEST(Shadow, ADarkBallInAGrayClipIsSeenToBounce) {
+  const cv::Mat background = plain(cv::Scalar::all(140));
+  EXPECT_EQ(bounces(film("graydark", [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_ball(frame, bouncing(k), 12.0, cv::Scalar::all(80));
+    return gray(frame);
+  })), 1u);
+}
+
+TEST(Shadow, ABallOfTheWallsHueIsSeenToBounce) {
+  const cv::Mat background = plain(cv::Scalar(125, 140, 150));
+  EXPECT_EQ(bounces(film("grayball", [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_ball(frame, bouncing(k), 12.0, cv::Scalar(88, 98, 105));
+    return frame;
+  })), 1u);
+}
+
+TEST(Shadow, WhatHidesTheBackgroundsTextureIsABody) {
+  const cv::Mat background = gray(wall());
+  const Footage footage = film("graywall", [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, bouncing(k), 14.0, cv::Scalar::all(70));
+    return frame;
+  });
+  for (int k = 2; k < 38; ++k)
+    for (const Region& r : footage.regions[k])
+      if (r.shadow) { EXPECT_NE(r.sign, ShadowSign::texture) << k; }
+  EXPECT_EQ(bounces(footage), 1u);
+}
+
+TEST(Shadow, AShadowInAGrayClipIsNoBody) {
+  const Vec2 beside(46.0, -20.0);
+  const cv::Mat background = gray(wall());
+  const Footage footage = film("grayshadow", [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_shadow(frame, bouncing(k) + beside, 14.0);
+    draw_disc(frame, bouncing(k), 14.0, cv::Scalar::all(235));
+    return frame;
+  });
+  ShotCamera camera;
+  camera.camera = {300.0, 300.0, 159.5, 119.5, kWidth, kHeight};
+  int shadows = 0;
+  for (const auto& frame : candidates_of(footage, camera, true))
+    for (const Candidate& c : frame)
+      if (c.frame > 1 && (c.pixel - bouncing(c.frame)).norm() > 20.0 && c.area > 100.0) {
+        ++shadows;
+        EXPECT_TRUE(c.shadow) << c.frame;
+      }
+  EXPECT_GT(shadows, 10);
+}
+
+TEST(Shadow, AWhiteBallKeepsItsShadedSideInAGrayClip) {
+  const cv::Mat background = plain(cv::Scalar::all(170));
+  const Footage footage = film("grayside", [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_ball(frame, bouncing(k), 20.0, cv::Scalar::all(240));
+    return gray(frame);
+  });
+  int whole = 0;  // in a few frames the band that is as bright as the wall parts it
+  for (int k = 5; k < 35; ++k) {
+    ASSERT_FALSE(footage.regions[k].empty()) << k;
+    const Region& r = footage.regions[k][0];
+    whole += std::abs(r.diameter - 40.5) < 3.0 && (r.centroid - bouncing(k)).norm() < 2.0;
+  }
+  EXPECT_GE(whole, 26);
+}
+
+}  // namespace
+}  // namespace unseen::collision::test
