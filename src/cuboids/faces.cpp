@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kSigmas = 3.0;
 const double kGrowCosine = std::cos(radians(22.0));  // normals of neighbours; their error is some 3–8°
-constexpr double kFirstFit = 12;                     // points, at least
-constexpr double kFirstWidth = 4.0;                  // σ; a narrower region says less of its normal than the seed does
+constexpr int kFirstFit = 12;                        // points
 constexpr int kBuckets = 64;
 constexpr float kFlattest = 2.0f, kRoughest = 4.0f;  // in σ; rougher surroundings seed nothing
 
@@ -40,13 +39,6 @@ void fit(const Sums& sums, const Vec3& viewpoint, Face& face) {
   face.plane = {normal, normal.dot(face.center)};
   face.width = std::sqrt(std::max(eigen.eigenvalues()[1], 0.0));
   face.length = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
-}
-
-/// Points that a region needs before its own normal is better than that of its seed: those within a square of
-/// `kFirstWidth` σ. Far away σ is many pixels wide, and a few pixels would tilt the plane off its surface.
-std::size_t first_fit(const PointGraph& graph, int seed) {
-  const double across = kFirstWidth * graph.sigma[seed] / graph.spacing[seed];
-  return static_cast<std::size_t>(std::max(kFirstFit, across * across));
 }
 
 /// Points in order of flatness, in a few classes; equal ones in their own order.
@@ -94,7 +86,7 @@ Faces grow_faces(std::span<const Vec3> points, const PointGraph& graph, std::spa
     face_of[seed] = id;
     Sums sums;
     sums.origin = points[seed];
-    std::size_t next_fit = first_fit(graph, seed);
+    std::size_t next_fit = kFirstFit;
     for (std::size_t at = 0; at < face.points.size(); ++at) {
       const int i = face.points[at];
       sums.add(points[i], 1.0 / (double(graph.sigma[i]) * graph.sigma[i]));
