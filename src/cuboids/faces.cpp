@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSigmas = 3.0;
 const double kGrowCosine = std::cos(radians(22.0));  // normals of neighbours; their error is some 3–8°
-constexpr int kFirstFit = 12;                        // points
+constexpr double kFirstFit = 12;                     // points, at least
 constexpr int kBuckets = 64;
 constexpr float kFlattest = 2.0f, kRoughest = 4.0f;  // in σ; rougher surroundings seed nothing
 
@@ -39,6 +39,12 @@ void fit(const Sums& sums, const Vec3& viewpoint, Face& face) {
   face.plane = {normal, normal.dot(face.center)};
   face.width = std::sqrt(std::max(eigen.eigenvalues()[1], 0.0));
   face.length = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
+}
+
+/// Points that a region needs before its own normal is better than that of its seed: those of a square `width` σ wide.
+std::size_t first_fit(const PointGraph& graph, int seed, double width) {
+  const double across = width * graph.sigma[seed] / graph.spacing[seed];
+  return static_cast<std::size_t>(std::max(kFirstFit, across * across));
 }
 
 /// Points in order of flatness, in a few classes; equal ones in their own order.
@@ -72,7 +78,7 @@ void finish(Face& face, std::span<const Vec3> points, const PointGraph& graph, c
 }  // namespace
 
 Faces grow_faces(std::span<const Vec3> points, const PointGraph& graph, std::span<const int> group,
-                 const Vec3& viewpoint, int min_points) {
+                 const Vec3& viewpoint, int min_points, double first_width) {
   Faces result;
   result.face_of_point.assign(points.size(), -1);
   std::vector<int>& face_of = result.face_of_point;
@@ -86,7 +92,7 @@ Faces grow_faces(std::span<const Vec3> points, const PointGraph& graph, std::spa
     face_of[seed] = id;
     Sums sums;
     sums.origin = points[seed];
-    std::size_t next_fit = kFirstFit;
+    std::size_t next_fit = first_fit(graph, seed, first_width);
     for (std::size_t at = 0; at < face.points.size(); ++at) {
       const int i = face.points[at];
       sums.add(points[i], 1.0 / (double(graph.sigma[i]) * graph.sigma[i]));

@@ -26,7 +26,9 @@ struct Faces {
 
 /// Flat regions grown over links within points of equal non-negative `group`; flattest seeds first. A region of fewer
 /// than `min_points` is none. What lies between regions falls to the one whose plane it lies on.
+/// A region goes by the normal of its seed until it is `first_width` σ wide: far away σ is many pixels, and a fit to a few
+/// pixels would tilt the plane off its surface.
 Faces grow_faces(std::span<const Vec3> points, const PointGraph& graph, std::span<const int> group,
-                 const Vec3& viewpoint, int min_points);
+                 const Vec3& viewpoint, int min_points, double first_width = 0.0);
 
 }  // namespace unseen::cuboids

@@ -16,6 +16,7 @@ constexpr double kSigmas = 3.0;
 constexpr double kFarthest = 100.0;       // m; nothing measures depth so far indoors: wrong units
 constexpr std::size_t kFewestPoints = 200;
 constexpr int kFewestFacePoints = 60;
+constexpr double kFirstWidth = 3.0;  // σ, of a piece of support that has a normal of its own; objects have no room for it
 const double kFlatCosine = std::cos(radians(35.0));
 const double kSameUp = std::cos(radians(5.0)), kNearVertical = std::cos(radians(5.0));
 
@@ -127,7 +128,7 @@ std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
 /// Flat regions that may be supports: what no mask names, unless that is next to nothing.
 Faces faces_of_supports(const RgbdFrame& frame, const Measured& measured, const PointGraph& graph) {
   std::vector<int> group(measured.points.size(), 0);
-  const auto grown = [&] { return grow_faces(measured.points, graph, group, Vec3::Zero(), kFewestFacePoints); };
+  const auto grown = [&] { return grow_faces(measured.points, graph, group, Vec3::Zero(), kFewestFacePoints, kFirstWidth); };
   if (!frame.masks.empty() && !frame.is_fused()) {
     for (std::size_t i = 0; i < group.size(); ++i) group[i] = frame.masks[measured.pixel_of_point[i]] > 0 ? -1 : 0;
     Faces faces = grown();

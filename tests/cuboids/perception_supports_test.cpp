@@ -79,5 +79,36 @@ TEST(Up, OfALargeBareWallBesideASmallFloorIsThatOfTheFloor) {
   EXPECT_TRUE(told.warnings.empty());
 }
 
+/// A box on a floor in front of a wall, which is `distance` m away and wider than the picture.
+Scene before_a_wall(double distance) {
+  Scene scene;
+  scene.height = 1.2;
+  scene.pitch = radians(20.0);
+  scene.boxes = {upright(0.3, 2.0, 0, {0.4, 0.3, 0.4}, 20), upright(0.0, distance + 0.05, 0, {16.0, 0.1, 4.0}, 0)};
+  return scene;
+}
+
+TEST(Walls, FarAwayAreOnesToo) {
+  for (const double distance : {3.0, 4.0, 5.0, 6.0})
+    for (const std::uint64_t seed : {1, 2}) {
+      const Perceived p = perceive(render(before_a_wall(distance), seed));
+      ASSERT_EQ(p.seen.supports.size(), 2u) << distance;
+      EXPECT_EQ(p.seen.supports[1].kind, SupportKind::wall);
+      EXPECT_NEAR(p.seen.supports[1].plane.signed_distance(Vec3(0, distance, 1.0)), 0.0, 0.03) << distance;
+      EXPECT_LT(p.seen.supports[1].plane.normal.y(), -0.999) << distance;
+      EXPECT_EQ(p.cuboids.size(), 1u) << distance;
+    }
+}
+
+TEST(Walls, OfACornerAreBothFound) {
+  Scene scene = before_a_wall(4.0);
+  scene.boxes.push_back(upright(1.75, 2.0, 0, {0.1, 8.0, 4.0}, 0));
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.seen.supports.size(), 3u);
+  EXPECT_EQ(p.seen.supports[1].kind, SupportKind::wall);
+  EXPECT_EQ(p.seen.supports[2].kind, SupportKind::wall);
+  EXPECT_EQ(p.cuboids.size(), 1u);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test
