@@ -65,8 +65,8 @@ BlockCholesky::Block block_of(const Lever& a, const Lever& b, const Mat3& m, con
 
 class Solver {
  public:
-  Solver(const Component& component, const Vec3& gravity)
-      : contacts_(component.contacts), matrix_(static_cast<int>(component.bodies.size()), component.pairs),
+  Solver(const Component& component, const Vec3& gravity, const Context& context)
+      : context_(context), contacts_(component.contacts), matrix_(static_cast<int>(component.bodies.size()), component.pairs),
         load_(6 * component.bodies.size()), force_(contacts_.size(), Vec3::Zero()), next_(contacts_.size()) {
     for (std::size_t i = 0; i < component.bodies.size(); ++i) load_.segment<6>(6 * i) << gravity, Vec3::Zero();
   }
@@ -144,6 +144,7 @@ class Solver {
     const double rounding = std::max(kMinimal, kRounding * sigma);
     for (int i = 0; i < kSteps; ++i) {
       if (gradient.norm() <= std::max(rounding, kRough * std::sqrt(change_) / sigma)) break;
+      context_.check();
       assemble(sigma);
       if (!matrix_.factor()) break;
       step = -gradient;
@@ -185,6 +186,7 @@ class Solver {
     return false;
   }
 
+  const Context& context_;
   const std::vector<ConeContact>& contacts_;
   BlockCholesky matrix_;
   Vector load_, motion_;
@@ -196,12 +198,12 @@ class Solver {
 }  // namespace
 
 Balance balance(std::span<const Body> bodies, std::span<const ContactPoint> contacts, const Vec3& gravity,
-                std::span<const Vec3> start, const Effort& effort) {
+                std::span<const Vec3> start, const Effort& effort, const Context& context) {
   Balance result;
   result.forces.assign(contacts.size(), Vec3::Zero());
   result.motion.assign(bodies.size(), Vec6::Zero());
   for (const Component& component : components_of(bodies, contacts)) {
-    Solver solver(component, gravity);
+    Solver solver(component, gravity, context);
     if (start.size() == contacts.size()) solver.start_from(start);
     result.residual = std::max(result.residual, largest_part(solver.solve(effort)));
     for (std::size_t i = 0; i < component.bodies.size(); ++i)

@@ -120,12 +120,11 @@ Check check_assembly(const std::vector<Block>& blocks, const CheckOptions& optio
   for (const Contact& c : check.contacts)
     for (const Vec3& p : c.points) points.push_back({c.a, c.b, p, c.direction, options.friction});
 
-  const Balance best = balance(bodies, points);
+  const Balance best = balance(bodies, points, -Vec3::UnitZ(), {}, {}, context);
   check.stability.residual = best.residual;
   check.stability.stable = best.residual < kStable;
-  context.check();
-  check.stability.margin = margin(bodies, points, kStable);
-  check.stability.friction_needed = friction_needed(bodies, points, kStable);
+  check.stability.margin = margin(bodies, points, kStable, 1.0, context);
+  check.stability.friction_needed = friction_needed(bodies, points, kStable, context);
 
   std::size_t next = 0;
   for (Contact& c : check.contacts) {

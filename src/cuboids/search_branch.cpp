@@ -60,7 +60,7 @@ Verdict judge(Search& s, const Arrangement& now) {
   const Structure structure = structure_of(s.problem, now, touches, s.held);
   std::vector<Vec3> forces;
   for (const Vec3& gravity : load_cases(s.problem.push)) {
-    Balance b = balance(structure.bodies, structure.contacts, gravity, forces);
+    Balance b = balance(structure.bodies, structure.contacts, gravity, forces, {}, s.context);
     if (forces.empty()) verdict.residual = b.residual;
     verdict.stands = b.residual < s.problem.stable_residual;
     if (!verdict.stands) {

@@ -86,8 +86,8 @@ std::vector<Body> merge(std::span<const Body> bodies, std::span<const int> group
 }
 
 double margin(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual,
-              double limit) {
-  const Balance at_rest = balance(bodies, contacts);
+              double limit, const Context& context) {
+  const Balance at_rest = balance(bodies, contacts, -Vec3::UnitZ(), {}, {}, context);
   if (!(at_rest.residual < stable_residual)) return 0.0;
   const Effort effort{0.5 * stable_residual, kRough};
   PushBounds bounds(limit + kMarginStep);
@@ -96,7 +96,7 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
     const std::size_t k = bounds.take_worst();
     const auto stands_at = [&](double acceleration) {
       const Vec3 push = acceleration * direction(k);
-      const Balance pushed = balance(bodies, contacts, push - Vec3::UnitZ(), at_rest.forces, effort);
+      const Balance pushed = balance(bodies, contacts, push - Vec3::UnitZ(), at_rest.forces, effort, context);
       const bool stands = pushed.residual < stable_residual;
       if (!stands) {
         bounds.high[k] = acceleration;
@@ -119,7 +119,8 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
   return least;
 }
 
-double friction_needed(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual) {
+double friction_needed(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual,
+                       const Context& context) {
   double high = 0.0;
   for (const ContactPoint& c : contacts) high = std::max(high, c.friction);
   const Effort effort{0.5 * stable_residual, kRough};
@@ -127,7 +128,7 @@ double friction_needed(std::span<const Body> bodies, std::span<const ContactPoin
   std::vector<ContactPoint> slippery(contacts.begin(), contacts.end());
   const auto stands_with = [&](double friction) {
     for (std::size_t i = 0; i < contacts.size(); ++i) slippery[i].friction = std::min(contacts[i].friction, friction);
-    Balance tried = balance(bodies, slippery, -Vec3::UnitZ(), start, effort);
+    Balance tried = balance(bodies, slippery, -Vec3::UnitZ(), start, effort, context);
     const bool stands = tried.residual < stable_residual;
     if (stands) start = std::move(tried.forces);
     return stands;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "unseen/core/context.h"
 #include "unseen/core/geometry.h"
 
 namespace unseen::cuboids {
@@ -55,9 +56,11 @@ struct Effort {
 /// and torques in weight × half size. `gravity` is the acceleration in units of g (up is −gravity at rest), so that a
 /// tilt or a push can be asked for; default straight down. Static bodies bear anything. `start` may hold the forces of
 /// a similar problem with the same contacts, which makes it faster and changes the result by rounding only.
-/// Throws std::invalid_argument for bodies without weight or size that are not static.
+/// Throws std::invalid_argument for bodies without weight or size that are not static, and Cancelled within one step of
+/// the solver if `context` was asked to stop; so do the functions below.
 Balance balance(std::span<const Body> bodies, std::span<const ContactPoint> contacts,
-                const Vec3& gravity = -Vec3::UnitZ(), std::span<const Vec3> start = {}, const Effort& effort = {});
+                const Vec3& gravity = -Vec3::UnitZ(), std::span<const Vec3> start = {}, const Effort& effort = {},
+                const Context& context = {});
 
 /// Bodies of one group (equal numbers) become one: fixed contacts. Gives the merged bodies, `group` being their index;
 /// a group with a static body is static. half_size is that of the whole.
@@ -66,10 +69,11 @@ std::vector<Body> merge(std::span<const Body> bodies, std::span<const int> group
 /// Largest horizontal acceleration (in g, worst of 16 directions, at most `limit`) that the bodies bear with residual
 /// below `stable_residual`; 0 if they do not even stand.
 double margin(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual,
-              double limit = 1.0);
+              double limit = 1.0, const Context& context = {});
 /// Smallest μ in [0, that of the contacts] that still holds; contacts with μ = 0 keep it. The largest μ of the contacts
 /// if they do not even stand.
-double friction_needed(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual);
+double friction_needed(std::span<const Body> bodies, std::span<const ContactPoint> contacts, double stable_residual,
+                       const Context& context = {});
 
 /// μ of a contact between measured bodies: none where its normal is near horizontal (|n·up| < 0.26), since a body that
 /// is squeezed between two walls of a measured scene is so by noise, and would seem to stand.

@@ -3,6 +3,9 @@
 """unseen cuboids: what it prints and writes, and the input that it refuses."""
 
 import json
+import signal
+import subprocess
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -10,7 +13,7 @@ import jsonschema
 import numpy
 
 import frames
-from harness import SOURCE, CliTest, contents, glb_json
+from harness import PROGRAM, SOURCE, CliTest, contents, glb_json
 from scene import scenes_of
 
 FILES = {"result.json", "scene.glb", "scene.xml", "scene.urdf", "report.html"}
@@ -175,6 +178,20 @@ class Check(CliTest):
         self.assertEqual(self.unseen("cuboids", "--check", "a.json", "--support", "beam", "--up", "0,0,-1").returncode, 4)
         self.assertEqual(self.unseen("cuboids", "--check", "a.json", "--support", "beam", "--up=-0.5,0,1").returncode, 0)  # 26.6° < atan 0.7
         self.assertEqual(self.unseen("cuboids", "--check", "a.json", "--support", "beam", "--up=-0.8,0,1").returncode, 4)
+
+    def test_ctrl_c_ends_a_large_one(self):
+        """A wall of 900 bricks takes much longer than this test waits."""
+        bricks = [{"id": f"{row}_{i}", "center": [0.2 * i + 0.1 * (row % 2), 0, 0.05 + 0.1 * row], "size": [0.2, 0.1, 0.1]}
+                  for row in range(30) for i in range(30)]
+        ground = {"id": "ground", "center": [0, 0, -0.5], "size": [100, 100, 1]}
+        (self.folder / "wall.json").write_text(json.dumps({"blocks": [ground, *bricks], "supports": ["ground"]}))
+        run = subprocess.Popen([PROGRAM, "cuboids", "--check", "wall.json"], cwd=self.folder, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE)
+        self.addCleanup(run.stdout.close)
+        self.addCleanup(run.stderr.close)
+        time.sleep(4)
+        run.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(timeout=10), 130)
 
     def test_refused(self):
         self.assembly(0.5)

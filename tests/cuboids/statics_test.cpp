@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cuboids/stacks.h"
+#include "unseen/core/error.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -223,6 +224,18 @@ TEST(Statics, StartAndOrderDoNotMatter) {
     EXPECT_NEAR(b.residual, balance(reversed.bodies, reversed.contacts).residual, 1e-5);
     EXPECT_EQ(b.residual, balance(s.bodies, s.contacts).residual);  // the same bytes
   }
+}
+
+TEST(Statics, EndsWhenAskedToStop) {
+  const Statics s = statics_of({{box({0, 0, 0.1}, {0.2, 0.2, 0.2})}, {Plane{}}, 0.7});
+  std::stop_source source;
+  Context context;
+  context.stop = source.get_token();
+  EXPECT_LT(balance(s.bodies, s.contacts, -Vec3::UnitZ(), {}, {}, context).residual, kStable);
+  source.request_stop();
+  EXPECT_THROW(balance(s.bodies, s.contacts, -Vec3::UnitZ(), {}, {}, context), Cancelled);
+  EXPECT_THROW(margin(s.bodies, s.contacts, kStable, 1.0, context), Cancelled);
+  EXPECT_THROW(friction_needed(s.bodies, s.contacts, kStable, context), Cancelled);
 }
 
 TEST(Statics, RefusesBodiesWithoutWeight) {
