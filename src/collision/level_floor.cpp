@@ -60,6 +60,7 @@ void doubt_level(Solution& solution) {
   if (lean.norm() < kLeast || lean.dot(power_of(covariance, -1.0) * lean) < kUnlikely) return;
   State tilted = fit.state;
   tilted.law.reset();
+  tilted.x = tilted.p[0] - problem.solids[0].radius * tilted.impulse.normalized();
   const double c = std::clamp(restitution<double>(problem, tilted, values_of(problem, tilted)), 0.0, 1.0);
   const double tilt = degrees(line_angle(fit.state.impulse, fit.state.down));
   solution.others.push_back({fmt::format("a floor that is tilted by {:.0f}°, where a level one needs a ball that spins: c = {:.2f}", tilt, c), c, fit.state.mass_ratio, 0.0});
