@@ -202,11 +202,12 @@ PlaneSums::PlaneSums(const Model& model, double scale) : step_(scale / 65536.0),
   for (const Part& p : model.parts) origin_.push_back(model.surfaces[p.surface].support.moments.mean);
 }
 
-void PlaneSums::add(const PointCloud& block, std::span<const int> plane_of_point, const std::vector<bool>& skip) {
+void PlaneSums::add(const PointCloud& block, std::span<const int> plane_of_point, const std::vector<bool>& skip,
+                    std::size_t first) {
   const double scale = 1.0 / step_;
   for (std::size_t i = 0; i < block.size(); ++i) {
     const int p = plane_of_point[i];
-    if (p < 0 || (!skip.empty() && skip[i])) continue;
+    if (p < 0 || (!skip.empty() && skip[first + i])) continue;
     Sums& s = sums_[p];
     const Vec3 d = (block.positions[i] - origin_[p]) * scale;
     const std::array<std::int64_t, 3> q = {std::llround(d.x()), std::llround(d.y()), std::llround(d.z())};

@@ -57,7 +57,9 @@ __extension__ using Int128 = __int128;
 class PlaneSums {
  public:
   PlaneSums(const Model& model, double scale);
-  void add(const PointCloud& block, std::span<const int> plane_of_point, const std::vector<bool>& skip);
+  /// Adds a block's points, except those for which skip[first + i] is set (empty = none).
+  void add(const PointCloud& block, std::span<const int> plane_of_point, const std::vector<bool>& skip,
+           std::size_t first = 0);
   Moments moments(std::size_t plane) const;
 
  private:

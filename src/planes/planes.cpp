@@ -61,7 +61,7 @@ void with_planes_of_points(PointSource& source, const Reach& reach, const VoxelG
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     plane_of_point.resize(block.size());
     assign_points(reach, grid, block, only_sure, plane_of_point, context);
-    body(block, plane_of_point);
+    body(block, first, plane_of_point);
     context.progress(std::min(1.0, static_cast<double>(first + block.size()) / static_cast<double>(survey.points)));
   });
 }
@@ -129,9 +129,9 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     Stage stage(context, summary, "refit");
     reach = find_reach(model, grid, cells, use_normals, context);
     PlaneSums points(model, result.scale);
-    with_planes_of_points(source, reach, grid, true, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
+    with_planes_of_points(source, reach, grid, true, seen, context, [&](const PointCloud& block, std::size_t first, std::vector<int>& plane) {
       drop_near_edges(reach, grid, block, plane, context);
-      points.add(block, plane, seen.duplicate);
+      points.add(block, plane, seen.duplicate, first);
     });
     std::vector<Moments> on_surface(model.surfaces.size());
     for (std::size_t p = 0; p < sums.size(); ++p) {
@@ -146,7 +146,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     Stage stage(context, summary, "assignment");
     const std::vector<int> index_of = describe_planes(model, sums, grid, space, result, context);
     PlaneSums points(model, result.scale);
-    with_planes_of_points(source, reach, grid, false, seen, context, [&](const PointCloud& block, std::vector<int>& plane) {
+    with_planes_of_points(source, reach, grid, false, seen, context, [&](const PointCloud& block, std::size_t, std::vector<int>& plane) {
       points.add(block, plane, {});
       for (int& p : plane) p = p < 0 ? -1 : index_of[p];
       if (sink) sink(block.positions, plane);

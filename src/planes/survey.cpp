@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
-#include <unordered_map>
+#include <tuple>
 
 #include "planes/scale.h"
 #include "unseen/core/error.h"
@@ -14,6 +14,7 @@ namespace unseen::planes {
 namespace {
 
 constexpr std::size_t kSample = 300'000;
+constexpr std::size_t kMostSought = std::size_t{1} << 25;  // points among which duplicates are sought: 24 bytes each
 
 std::uint64_t mix(std::uint64_t h) {
   h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ull;
@@ -28,33 +29,32 @@ std::uint64_t hash(const Vec3& p) {
   return h;
 }
 
-/// Marks all but one of the points that share their coordinates. Which one stays does not depend on the
-/// order of the points: the one with the smallest normal.
-void find_duplicates(const PointCloud& cloud, Survey& survey) {
+std::uint64_t hash(const PointCloud& cloud, std::size_t point) {
+  return cloud.normals.empty() ? 0 : hash(cloud.normals[point].cast<double>());
+}
+
+/// Marks all but one of the points that share their coordinates (two places in 2⁶⁴ have the same hash). Which one
+/// stays does not depend on the order of the points: the one whose normal has the smallest hash.
+void find_duplicates(PointSource& source, Survey& survey) {
   struct Hashed {
-    std::uint64_t hash;
+    std::uint64_t position, normal;
     std::uint32_t point;
+    auto operator<=>(const Hashed&) const = default;
   };
   std::vector<Hashed> order;
-  order.reserve(cloud.size());
-  for (std::uint32_t i = 0; i < cloud.size(); ++i)
-    if (cloud.positions[i].allFinite()) order.push_back({hash(cloud.positions[i]), i});
-  const auto less = [](const auto& a, const auto& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  };
-  std::sort(order.begin(), order.end(), [&](const Hashed& x, const Hashed& y) {
-    if (x.hash != y.hash) return x.hash < y.hash;
-    const std::uint32_t a = x.point, b = y.point;
-    if (cloud.positions[a] != cloud.positions[b]) return less(cloud.positions[a], cloud.positions[b]);
-    if (!cloud.normals.empty() && cloud.normals[a] != cloud.normals[b]) return less(cloud.normals[a], cloud.normals[b]);
-    return a < b;
+  order.reserve(survey.finite);
+  for_each_block(source, [&](const PointCloud& block, std::size_t first) {
+    for (std::size_t i = 0; i < block.size(); ++i)
+      if (block.positions[i].allFinite())
+        order.push_back({hash(block.positions[i]), hash(block, i), static_cast<std::uint32_t>(first + i)});
   });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (order[i].hash == order[i - 1].hash && cloud.positions[order[i].point] == cloud.positions[order[i - 1].point]) {
-      if (survey.duplicate.empty()) survey.duplicate.assign(cloud.size(), false);
-      survey.duplicate[order[i].point] = true;
-      ++survey.duplicates;
-    }
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (order[i].position != order[i - 1].position) continue;
+    if (survey.duplicate.empty()) survey.duplicate.assign(survey.points, false);
+    survey.duplicate[order[i].point] = true;
+    ++survey.duplicates;
+  }
 }
 
 /// The box that holds all but a hundredth of the sample at either end of each axis, grown on all sides by ten
@@ -109,6 +109,32 @@ struct Sampled {
   Vec3f normal;
 };
 
+/// Sorts by hash, keeps one point of each place, and says whether there were others. All points of a place have
+/// one hash: the sample holds all or none of them.
+bool drop_twins(std::vector<Sampled>& sample) {
+  const auto key = [](const Sampled& x) {
+    return std::tuple(x.hash, x.position.x(), x.position.y(), x.position.z(), hash(x.normal.cast<double>()));
+  };
+  std::sort(sample.begin(), sample.end(), [&](const Sampled& a, const Sampled& b) {
+    return a.hash != b.hash ? a.hash < b.hash : key(a) < key(b);
+  });
+  const auto end = std::unique(sample.begin(), sample.end(),
+                               [](const Sampled& a, const Sampled& b) { return a.position == b.position; });
+  const bool any = end != sample.end();
+  sample.erase(end, sample.end());
+  return any;
+}
+
+/// Brings the sample to at most kSample places. It holds those whose hash starts with `bits` zeros: which these
+/// are depends on all places seen, not on their order.
+void thin(std::vector<Sampled>& sample, int& bits, bool& twins) {
+  twins |= drop_twins(sample);
+  while (sample.size() > kSample) {
+    ++bits;
+    std::erase_if(sample, [&](const Sampled& x) { return x.hash >> (64 - bits) != 0; });
+  }
+}
+
 }  // namespace
 
 Survey survey(PointSource& source, Context& context) {
@@ -116,9 +142,9 @@ Survey survey(PointSource& source, Context& context) {
   s.low.setConstant(std::numeric_limits<double>::infinity());
   s.high = -s.low;
   const bool normals = source.info().has_normals;
-  if (const PointCloud* cloud = source.cloud()) find_duplicates(*cloud, s);
   std::vector<Sampled> sample;
   int bits = 0;  // points whose hash starts with this many zeros are in the sample
+  bool twins = false;
   const double total = static_cast<double>(source.info().point_count.value_or(0));
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -133,31 +159,27 @@ Survey survey(PointSource& source, Context& context) {
         const float length = block.normals[i].squaredNorm();
         if (!(length > 0.25f && length < 4.0f)) ++s.without_normal;
       }
-      if (!s.duplicate.empty() && s.duplicate[first + i]) continue;
       const std::uint64_t h = hash(p);
       if (bits > 0 && h >> (64 - bits) != 0) continue;
       sample.push_back({h, p, normal ? block.normals[i] : Vec3f(Vec3f::Zero())});
-      if (sample.size() > kSample) {
-        ++bits;
-        std::erase_if(sample, [&](const Sampled& x) { return x.hash >> (64 - bits) != 0; });
-      }
+      if (sample.size() > 2 * kSample) thin(sample, bits, twins);
     }
     s.points += block.size();
   });
-  std::sort(sample.begin(), sample.end(), [](const Sampled& a, const Sampled& b) {
-    return a.hash != b.hash ? a.hash < b.hash
-                            : std::lexicographical_compare(a.position.data(), a.position.data() + 3,
-                                                           b.position.data(), b.position.data() + 3);
-  });
+  thin(sample, bits, twins);
   for (const Sampled& x : sample) {
     s.sample.push_back(x.position);
     if (normals) s.sample_normals.push_back(x.normal);
   }
-  s.share = s.finite > 0 ? static_cast<double>(sample.size()) / static_cast<double>(s.finite - s.duplicates) : 1.0;
   if (s.finite == 0)
     throw InputError(source.info().name, "points",
                      s.points == 0 ? "none" : std::to_string(s.points) + ", none of them finite",
                      "at least three points that are not in a line");
+  if (source.cloud() != nullptr || (twins && s.points <= kMostSought))
+    find_duplicates(source, s);
+  else if (twins)
+    context.warn(fmt::format("some points are duplicates; among more than {} they are not sought", kMostSought));
+  s.share = static_cast<double>(s.sample.size()) / static_cast<double>(s.finite - s.duplicates);
   leave_out_strays(s);
   check_extent(s, source.info().name);
   return s;

@@ -51,7 +51,7 @@ VoxelSums& VoxelSums::operator+=(const VoxelSums& o) {
   return *this;
 }
 
-void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip) {
+void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip, std::size_t first) {
   const double scale = 1.0 / edge_;
   VoxelKey last{};
   VoxelSums* at = nullptr;
@@ -61,7 +61,7 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip) {
       outside_ += p.allFinite();
       continue;
     }
-    if (!skip.empty() && skip[i]) continue;
+    if (!skip.empty() && skip[first + i]) continue;
     VoxelKey key;
     std::array<std::int64_t, 3> q;
     for (int a = 0; a < 3; ++a) {
@@ -236,7 +236,7 @@ VoxelBuilder summarise(PointSource& source, double edge, const Box& within, cons
   VoxelBuilder builder(edge, within);
   const double total = static_cast<double>(source.info().point_count.value_or(0));
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
-    builder.add(block, duplicate);
+    builder.add(block, duplicate, first);
     context.progress(total > 0 ? std::min(1.0, (first + block.size()) / total) : 0.0);
   });
   return builder;

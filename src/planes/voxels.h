@@ -55,9 +55,10 @@ class VoxelBuilder {
  public:
   explicit VoxelBuilder(double edge, const Box& within = {}) : edge_(edge), within_(within) {}
 
-  /// Adds every point of a block that is in the box, except those for which skip[i] is set (empty = none).
+  /// Adds every point of a block that is in the box, except those for which skip[first + i] is set (empty =
+  /// none).
   /// Throws InputError if a coordinate is too large for the grid (2³¹ voxels).
-  void add(const PointCloud& block, const std::vector<bool>& skip = {});
+  void add(const PointCloud& block, const std::vector<bool>& skip = {}, std::size_t first = 0);
   void join(const VoxelBuilder& other);
 
   double edge() const { return edge_; }

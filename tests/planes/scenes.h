@@ -77,6 +77,35 @@ inline VoxelGrid grid_of(const PointCloud& cloud, double edge) {
   return VoxelGrid(builder);
 }
 
+/// The cloud as a source that streams blocks and cannot be looked at as a whole.
+class Stream final : public PointSource {
+ public:
+  Stream(const PointCloud& cloud, bool two_dimensional, std::size_t block)
+      : cloud_(cloud), two_dimensional_(two_dimensional), block_(block) {}
+  SourceInfo info() const override {
+    SourceInfo info;
+    info.name = "stream";
+    info.has_normals = !cloud_.normals.empty();
+    info.two_dimensional = two_dimensional_;
+    return info;
+  }
+  bool next(PointCloud& block) override {
+    block = PointCloud();
+    const std::size_t end = std::min(cloud_.size(), at_ + block_);
+    for (; at_ < end; ++at_) {
+      block.positions.push_back(cloud_.positions[at_]);
+      if (!cloud_.normals.empty()) block.normals.push_back(cloud_.normals[at_]);
+    }
+    return block.size() > 0;
+  }
+  void rewind() override { at_ = 0; }
+
+ private:
+  const PointCloud& cloud_;
+  bool two_dimensional_;
+  std::size_t block_, at_ = 0;
+};
+
 struct Run {
   Arrangement result;
   std::vector<int> plane_of_point;

@@ -55,6 +55,20 @@ TEST(Survey, OneOfEachGroupOfTwinsStays) {
   EXPECT_EQ(s.sample.size(), 47u);
 }
 
+/// Files are streamed: twins are found there too, and the sample that the scale is taken from holds none.
+TEST(Survey, FindsTwinsInAStream) {
+  const PointCloud once = scattered(4000, 3);
+  PointCloud thrice;
+  for (int k = 0; k < 3; ++k)
+    thrice.positions.insert(thrice.positions.end(), once.positions.begin(), once.positions.end());
+  test::Stream stream(thrice, false, 1000);
+  Context context;
+  const Survey s = survey(stream, context);
+  EXPECT_EQ(s.duplicates, 8000u);
+  EXPECT_EQ(std::count(s.duplicate.begin(), s.duplicate.end(), false), 4000);
+  EXPECT_TRUE(s.sample == look_at(once).sample);
+}
+
 /// Which twin stays shows in its normal: it must be the same one in any order.
 TEST(Survey, TheTwinThatStaysDoesNotDependOnTheOrder) {
   PointCloud cloud = scattered(60, 3);
