@@ -18,7 +18,8 @@ constexpr double kTorso = 0.44, kLeg = 0.77;  // m, shoulders to hips and hip to
 constexpr double kUsualHeight = 1.3, kHeightSd = 0.4;         // m, of cameras that film people
 constexpr double kUsualPitch = 0.06, kPitchSd = 0.06;         // rad
 constexpr double kKnownSd = 1e-4;                             // of what the take gives
-constexpr double kSteepest = 1.4;                             // rad
+constexpr double kSteepest = 1.4;                             // rad; whose camera is steeper sees nobody upright
+constexpr double kVertical = 1e-6;                            // of `up` across the view, below which there is no roll
 constexpr double kPoseSd = 0.05, kStatureSd = 0.06;           // of a length in the picture, as a share: who leans, and who is tall
 constexpr double kRough = 1.5;                                // sd beyond which a foot counts less and less
 constexpr double kCorrelated = 0.5;                           // s that one stance lasts
@@ -126,7 +127,7 @@ GroundStart find_ground(const Take& take, Context& context) {
   Ground& ground = start.ground;
   if (take.up) {
     ground.pitch = std::asin(std::clamp(-take.up->z(), -1.0, 1.0));
-    ground.roll = std::atan2(-take.up->x(), -take.up->y());
+    ground.roll = std::hypot(take.up->x(), take.up->y()) > kVertical ? std::atan2(-take.up->x(), -take.up->y()) : 0.0;
   }
   std::vector<Foot> feet;
   for (const Detection& detection : take.detections)
@@ -145,7 +146,7 @@ GroundStart find_ground(const Take& take, Context& context) {
   if (!take.up) ground.pitch = std::atan(floor.slope);
   ground.camera_height = take.camera_height.value_or(floor.height * std::cos(ground.pitch) + kAnkleHeight);
   start.information = floor.information;
-  if (is_turned(take, ground.roll))
+  if (std::abs(ground.pitch) < kSteepest && is_turned(take, ground.roll))
     context.warn(take.up ? "most people are not upright in the picture: \"up\" may be wrong" : "most people are not upright in the picture: if it is turned, say so by \"up\"");
   if (feet.empty() && !take.camera_height)
     context.warn(fmt::format("nobody is seen upright with feet on the floor: the camera's height is a guess, {:.1f} m", ground.camera_height));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <set>
 
 #include "interactions/identity_network.h"
 #include "unseen/core/error.h"
@@ -200,10 +201,18 @@ void search(const Model& model, const Allowed& allowed, Search& s) {
   search(model, without, s);
 }
 
+/// One person is expected, and nobody is seen beside him, nor marked.
+bool is_alone(const Take& take) {
+  if (take.people != 1 || !take.labels.empty()) return false;
+  std::set<int> frames;
+  return std::all_of(take.detections.begin(), take.detections.end(), [&](const Detection& d) { return d.person <= 0 && frames.insert(d.frame).second; });
+}
+
 }  // namespace
 
 std::vector<int> identify(const Take& take) {
   if (take.detections.empty()) return {};
+  if (is_alone(take)) return std::vector<int>(take.detections.size(), 0);
   const Sightings sightings = sightings_of(take);
   Search result;
   search(model_of(take, sightings), allowed_by_labels(take, sightings), result);

@@ -123,7 +123,8 @@ double link_cost(const Take& take, const Sightings& s, int from, int to) {
     if (v) squared = std::min(squared, motion(take.detections[a], take.detections[b], frames * *v).squared);
   if (!s.before[a] && !s.after[b]) squared = motion(take.detections[a], take.detections[b], Vec2::Zero()).squared;
   const int missed = s.slot[b] - s.slot[a] - 1;
-  return kMotion * squared / (kJoints * s.half_diagonal * s.half_diagonal * frames) + kAbsent * missed +
+  const double slow = std::min(1.0, take.fps / kMotionFps);
+  return kMotion * slow * slow * squared / (kJoints * s.half_diagonal * s.half_diagonal * frames) + kAbsent * missed +
          std::min(kMissed * missed, leave_cost(take.detections[a]) + leave_cost(take.detections[b]));
 }
 

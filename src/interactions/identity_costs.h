@@ -25,6 +25,7 @@ constexpr double kAbsent = 1.0;   ///< of a person in a frame without a detectio
 constexpr double kLeave = 20.0;   ///< of leaving when seen well, and of coming back so
 constexpr double kMissed = 2.0;   ///< of a frame missed between two detections
 constexpr double kMotion = 1e3;   ///< weight of motion (Eq. 6.16)
+constexpr double kMotionFps = 10; ///< 1/s; people move farther from frame to frame of slower takes, which costs no more
 
 /// Of a person at a detection: minus the mean confidence of its joints (Eq. 6.14).
 double presence_cost(const Detection& detection);

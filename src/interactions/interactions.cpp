@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "interactions/ground_fit.h"
 #include "interactions/masks.h"
@@ -33,6 +34,20 @@ std::vector<Passing> passings(const Reconstruction& r) {
       all.push_back(std::move(passing));
     }
   return all;
+}
+
+/// Of all windows' matches, m².
+double energy_of(const std::vector<Window>& windows) {
+  double sum = 0;
+  for (const Window& window : windows) sum += window.energy;
+  return sum;
+}
+
+/// In which somebody is detected.
+std::size_t frames_of(const Take& take) {
+  std::set<int> frames;
+  for (const Detection& detection : take.detections) frames.insert(detection.frame);
+  return frames.size();
 }
 
 void solve(const std::vector<Take>& takes, const Database& database, const Options& options, Reconstruction& r, Context& context) {
@@ -66,6 +81,9 @@ void solve(const std::vector<Take>& takes, const Database& database, const Optio
   for (const Story& story : stories) r.people.push_back(person_of(story, database, view, take.fps));
   if (options.intersection) settle_objects(r.objects, passings(r));
   for (std::size_t i = 0; i < r.objects.size(); ++i) r.objects[i].object.id = static_cast<int>(i);
+  r.summary.energy = {{"windows", energy_of(r.windows)}};
+  r.summary.counts = {{"frames", frames_of(take)}, {"people", static_cast<std::size_t>(take.people)}, {"detections", take.detections.size()},
+                      {"objects", r.objects.size()}, {"windows", r.windows.size()}};
 }
 
 }  // namespace

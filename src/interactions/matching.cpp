@@ -19,6 +19,14 @@ double median_depth(const std::vector<const Sight*>& sights) {
   return *middle;
 }
 
+/// The sight nearest to a frame, of two the earlier one; none if there are no sights.
+const Sight* nearest(const std::vector<Sight>& sights, int frame) {
+  const auto after = std::lower_bound(sights.begin(), sights.end(), frame, [](const Sight& s, int f) { return s.frame < f; });
+  if (after == sights.begin()) return sights.empty() ? nullptr : &*after;
+  const auto before = after - 1;
+  return after == sights.end() || frame - before->frame <= after->frame - frame ? &*before : &*after;
+}
+
 constexpr double kSigma = 0.12;  // m at the glance's depth: beyond it a joint counts less and less
 
 /// Normal equations of the robust distances by (θ, x, y), their robust cost and the sum of their weights.
@@ -76,10 +84,11 @@ Glance glance_at(const std::vector<Sight>& sights, int frame, double fps, double
   Glance glance;
   glance.center = frame;
   const int reach = static_cast<int>(std::lround(half * fps)), stride = std::max(1, static_cast<int>(std::lround(step * fps)));
-  const auto begin = std::lower_bound(sights.begin(), sights.end(), frame - reach, [](const Sight& s, int f) { return s.frame < f; });
-  for (auto sight = begin; sight != sights.end() && sight->frame <= frame + reach; ++sight) {
-    if ((sight->frame - frame) % stride != 0) continue;
-    glance.sights.push_back(&*sight);
+  for (int time = frame - reach / stride * stride; time <= frame + reach; time += stride) {
+    const Sight* sight = nearest(sights, time);
+    if (sight == nullptr || 2 * std::abs(sight->frame - time) > stride || std::abs(sight->frame - frame) > reach) continue;
+    if (!glance.sights.empty() && glance.sights.back() == sight) continue;
+    glance.sights.push_back(sight);
     glance.offsets.push_back((sight->frame - frame) / fps);
   }
   glance.depth = median_depth(glance.sights);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "unseen/core/level.h"
+
 namespace unseen::interactions {
 namespace {
 
@@ -48,11 +50,9 @@ std::array<bool, kJoints> behind_others(const Detection& detection, double depth
 }  // namespace
 
 View view_of(const Camera& camera, const Ground& ground) {
-  // Of a level camera: x stays, its z looks along +y, its y down.
-  Mat3 level;
-  level << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  const Mat3 tilt = (Eigen::AngleAxisd(-ground.pitch, Vec3::UnitX()) * Eigen::AngleAxisd(ground.roll, Vec3::UnitY())).toRotationMatrix();
-  return {camera, {tilt * level, Vec3(0, 0, ground.camera_height)}};
+  const double c = std::cos(ground.pitch);
+  const Vec3 up(-c * std::sin(ground.roll), -c * std::cos(ground.roll), -std::sin(ground.pitch));
+  return {camera, {level_rotation(up), Vec3(0, 0, ground.camera_height)}};
 }
 
 std::vector<Sight> sights_of(const Take& take, int person, const View& view) {

@@ -8,7 +8,7 @@
 
 namespace unseen::interactions {
 
-/// A camera that stands above the world's origin and looks along +y.
+/// A camera that stands above the world's origin and looks along +y; if it looks straight up or down, the top of its picture is there.
 struct View {
   Camera camera;
   RigidTransform T_world_camera;

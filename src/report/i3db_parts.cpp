@@ -133,15 +133,6 @@ std::vector<Object> read_i3db_objects(const fs::path& folder) {
   return list;
 }
 
-Mat3 level_rotation(const Vec3& up) {
-  Vec3 forward = Vec3::UnitZ();
-  if (line_angle(forward, up) < radians(5.0)) forward = -Vec3::UnitY();
-  const Vec3 y = (forward - forward.dot(up) * up).normalized();
-  Mat3 rotation;
-  rotation << y.cross(up).transpose(), y.transpose(), up.transpose();
-  return rotation;
-}
-
 OrientedBox upright(const RigidTransform& T, const OrientedBox& box) {
   OrientedBox b = {T * box.center, T.rotation * box.axes, box.half_size};
   Eigen::Index up = 0;

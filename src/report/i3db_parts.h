@@ -33,10 +33,6 @@ std::map<int, interactions::PerJoint> read_i3db_values(const JsonField& json);
 /// The boxes NN_label_part.json of a folder, in the coordinates of the camera; NN is the object. The axes are the file's.
 std::vector<interactions::Object> read_i3db_objects(const std::filesystem::path& folder);
 
-/// The rotation from camera to world if `up` (unit, camera coordinates) is up: y along the camera's forward direction, or along the
-/// image's up if that is within 5° of the vertical.
-Mat3 level_rotation(const Vec3& up);
-
 /// The box in the world: `T` times it, its axes ordered so that the last one is nearest to up.
 OrientedBox upright(const RigidTransform& T, const OrientedBox& box);
 

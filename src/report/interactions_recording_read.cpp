@@ -8,6 +8,7 @@
 #include "io/text.h"
 #include "report/i3db_parts.h"
 #include "unseen/core/error.h"
+#include "unseen/core/level.h"
 #include "unseen/report/interactions_recording.h"
 
 namespace unseen::report {

@@ -33,6 +33,9 @@ void read_person(const JsonField& json, int frame, JointFile& joints) {
   joints.detections.push_back(d);
 }
 
+/// Other files may lie beside the frames, the take for one, whose "people" is a number.
+bool is_frame(const nlohmann::json& json) { return json.is_object() && json.contains("people") && json["people"].is_array(); }
+
 }  // namespace
 
 JointFile read_openpose_joints(const fs::path& folder) {
@@ -40,17 +43,21 @@ JointFile read_openpose_joints(const fs::path& folder) {
   if (files.empty()) throw InputError(folder.string(), "", "no JSON file", "one a frame, as OpenPose's --write_json makes them");
   JointFile joints;
   std::size_t bytes = 0;
+  std::size_t frames = 0;
   for (const fs::path& file : files) {
-    const int frame = last_number(file.stem().string());
-    if (frame < 0) throw InputError(file.string(), "", "no number below ten million in the name", "a frame's, such as take_000000000012_keypoints.json");
     const std::string text = io::read_text_file(file, kLargestFrame);
     bytes += text.size();
     if (bytes > kLargestFolder) throw InputError(folder.string(), "", fmt::format("more than {} GiB of JSON", kLargestFolder >> 30), "a shorter take");
     const nlohmann::json parsed = io::parse_json(text, file.string(), "a frame of OpenPose");
+    if (!is_frame(parsed)) continue;
+    const int frame = last_number(file.stem().string());
+    if (frame < 0) throw InputError(file.string(), "", "no number below ten million in the name", "a frame's, such as take_000000000012_keypoints.json");
+    ++frames;
     for (const JsonField& person : JsonField(parsed, file.string())["people"].list(kMostDetections)) read_person(person, frame, joints);
     if (joints.detections.size() > kMostDetections)
       throw InputError(folder.string(), "", "more people", fmt::format("at most {} in all frames together", kMostDetections));
   }
+  if (frames == 0) throw InputError(folder.string(), "", "no JSON file with a list of \"people\"", "one a frame, as OpenPose's --write_json makes them");
   return joints;
 }
 

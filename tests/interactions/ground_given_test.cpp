@@ -46,6 +46,24 @@ TEST(GivenGround, RollOfTheCameraChangesNothingElse) {
   }
 }
 
+TEST(GivenGround, TopOfThePictureIsAheadOfACameraThatLooksStraightDown) {
+  Take take = walking(4);
+  take.camera_height = 2.5;
+  for (const Vec3& up : {Vec3(0, 0, -1), Vec3(0.01, -0.02, -1), Vec3(0.02, 0, -1), Vec3(-0.03, 0.05, -1)}) {
+    take.up = up.normalized();
+    Context context;
+    const Mat3 rotation = view_of(take.camera, find_ground(take, context).ground).T_world_camera.rotation;
+    EXPECT_LT((rotation * *take.up - Vec3::UnitZ()).norm(), 1e-9);
+    const Vec3 top = rotation * -Vec3::UnitY();
+    EXPECT_NEAR(top.x(), 0, 1e-9);
+    EXPECT_GT(top.y(), 0.99);
+    EXPECT_TRUE(context.take_warnings().empty()) << "nobody looks upright from above";
+  }
+  take.up = Vec3(0, 0, -1);
+  Context context;
+  EXPECT_EQ(find_ground(take, context).ground.roll, 0);
+}
+
 TEST(GivenGround, IsKept) {
   Take take = walking(4);
   Database database = build_database({simulate({}).truth}, {}, *std::make_unique<Context>());

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -181,6 +182,33 @@ TEST(Identities, ADoubtfulThirdFigureIsNobody) {
   }
   const std::vector<int> person = identify(take);
   for (std::size_t i = 0; i < person.size(); ++i) EXPECT_EQ(person[i] < 0, i % 3 == 1) << i;
+}
+
+TEST(Identities, WhoIsAloneIsTheOneExpectedHoweverFarHeMovesBetweenFrames) {
+  for (const double fps : {0.5, 1.0, 2.0, 10.0}) {
+    Random random(6);
+    Take take = empty_take(1, fps);
+    for (int frame = 0; frame < 30; ++frame) take.detections.push_back(body(frame, Vec2(random.uniform(200, 1700), 540), 5, random));
+    EXPECT_EQ(identify(take), std::vector<int>(30, 0)) << fps;
+  }
+}
+
+TEST(Identities, OfPeopleWhoWalkStayInSlowTakes) {
+  for (const double fps : {1.0, 2.0, 5.0, 10.0, 30.0}) {
+    Random random(7);
+    Take take = empty_take(2, fps);
+    std::vector<int> expected;
+    for (int frame = 0; frame < 20; ++frame)
+      for (const int person : {0, 1}) {
+        const double swing = std::sin(frame / fps);  // 250 px / s at most
+        take.detections.push_back(body(frame, Vec2(person == 0 ? 400 + 250 * swing : 1500 - 250 * swing, 540), 3, random));
+        expected.push_back(person);
+      }
+    std::vector<int> found = identify(take);
+    if (found[0] == 1)
+      for (int& person : found) person = 1 - person;  // which of the two is called the first is no matter
+    EXPECT_EQ(found, expected) << fps;
+  }
 }
 
 TEST(Identities, FollowLabelsByPixel) {

@@ -162,6 +162,22 @@ TEST(Glances, HaveTheFramesAroundTheirCentre) {
   EXPECT_EQ(glance.depth, 2);
 }
 
+TEST(Glances, ReachAsFarWhereOnlySomeFramesHaveADetection) {
+  for (const int every : {1, 2, 3, 4, 5, 6, 7}) {
+    std::vector<Sight> sights;
+    for (int frame = 0; frame < 300; frame += every) {
+      sights.emplace_back();
+      sights.back().frame = frame;
+    }
+    const Glance glance = glance_at(sights, 30 * every, 30, 1.0, 0.3);
+    EXPECT_GE(glance.sights.size(), 6u) << every;
+    EXPECT_LE(glance.sights.size(), 7u) << every;
+    EXPECT_LE(glance.offsets.front(), -0.75) << every;
+    EXPECT_GE(glance.offsets.back(), 0.75) << every;
+    for (std::size_t i = 0; i + 1 < glance.sights.size(); ++i) EXPECT_LT(glance.sights[i]->frame, glance.sights[i + 1]->frame);
+  }
+}
+
 TEST(PosesOfAScenelet, LieBetweenThoseRecorded) {
   const Scenelet s = test::moving_scenelet(simple_pose(0), 1.0);
   for (const double offset : {-0.5, -0.37, 0.0, 0.02, 0.499, 0.5}) {

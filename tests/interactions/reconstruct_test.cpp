@@ -61,6 +61,16 @@ void expect_sound(const Reconstruction& r, const Take& take) {
     }
   }
   EXPECT_EQ(r.summary.status == Status::infeasible, r.objects.empty());
+  std::map<std::string, std::size_t> counts(r.summary.counts.begin(), r.summary.counts.end());
+  EXPECT_EQ(counts.size(), 5u);
+  EXPECT_EQ(counts["people"], r.people.size());
+  EXPECT_EQ(counts["objects"], r.objects.size());
+  EXPECT_EQ(counts["windows"], r.windows.size());
+  EXPECT_LE(counts["frames"], counts["detections"]);
+  ASSERT_EQ(r.summary.energy.size(), 1u);
+  double energy = 0;
+  for (const Window& window : r.windows) energy += window.energy;
+  EXPECT_NEAR(r.summary.energy[0].second, energy, 1e-12);
 }
 
 /// All numbers and names of a result but times.

@@ -67,6 +67,16 @@ TEST(TakeRead, OpenPoseBody25HasEveryJointWhereItIs) {
   EXPECT_TRUE(t.remarks.empty());
 }
 
+TEST(TakeRead, OpenPoseFramesMayLieBesideTheTakeAndOtherFiles) {
+  const test::Folder folder;
+  for (int i = 0; i < 3; ++i) folder.write("walk_" + std::to_string(i) + "_keypoints.json", openpose_frame(Json::array({openpose_person(kBody25)})));
+  folder.write("intrinsics.json", Json{{"fx", 1000}});
+  folder.write("list7.json", Json::array({1, 2}));
+  Json json = take("openpose", ".");
+  json["people"] = 1;
+  EXPECT_EQ(read_take(folder.write("take2.json", json)).detections.size(), 3u);
+}
+
 TEST(TakeRead, OpenPoseCoco18LacksThePelvisWhichIsMade) {
   const Folder folder;
   folder.write("joints/0.json", openpose_frame({openpose_person(kCoco18), openpose_person(kCoco18, 400)}));
