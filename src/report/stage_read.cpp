@@ -25,11 +25,16 @@ constexpr double kAfterMeeting = 0.5;  // s: what a shot without a duration show
 
 fs::path result_file(const fs::path& named) { return fs::is_directory(named) ? named / "result.json" : named; }
 
-/// The shot that a result was made from, unless another file is named.
+/// The shot that a result was made from, unless another file is named. Its path is relative to where the result was made: here, or in
+/// a folder that holds the result's.
 Shot shot_of(const fs::path& result, const fs::path& named) {
   if (!named.empty()) return read_shot(named);
   const fs::path path = read_stored_run(result).input.path;
-  for (const fs::path& candidate : {path, result.parent_path() / path, result.parent_path() / path.filename()})
+  std::vector<fs::path> candidates = {path};
+  for (fs::path folder = fs::absolute(result).lexically_normal().parent_path(); folder != folder.root_path(); folder = folder.parent_path())
+    candidates.push_back(folder / path);
+  candidates.push_back(result.parent_path() / path.filename());
+  for (const fs::path& candidate : candidates)
     if (fs::is_regular_file(candidate)) return read_shot(candidate);
   throw InputError(result.string(), "input.path", path.string() + ", which does not exist", "the SHOT.json of the result; a shot list names it as shot = \"…\"");
 }

@@ -141,6 +141,19 @@ class Staging(unittest.TestCase):
         scene, = scenes_of(self.folder / "side.html")
         self.assertEqual(scene.header["command"], "unseen stage x y/result.json -o side")
 
+    def test_results_are_staged_from_any_folder(self):
+        made = self.folder / "made"
+        (made / "films" / "out").mkdir(parents=True)
+        for name in ("shot.json", "observations.json"):
+            shutil.copy(self.folder / name, made / "films" / name)
+        result = json.loads((self.folder / "two/result.json").read_text())
+        result["input"]["path"] = "films/shot.json"  # as unseen was run in "made"
+        (made / "films/out/result.json").write_text(json.dumps(result))
+        (self.folder / "elsewhere").mkdir()
+        run = subprocess.run([os.environ["UNSEEN"], "stage", "../made/films/out", "-o", "staged"], cwd=self.folder / "elsewhere", capture_output=True,
+                             text=True, timeout=120)
+        self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_view_of_a_bad_shot_gives_one_line(self):
         text = (self.folder / "shot/result.json").read_text()
         (self.folder / "spoilt").mkdir()
