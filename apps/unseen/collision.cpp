@@ -57,7 +57,7 @@ void print_summary(const collision::Reconstruction& r, const Arguments& args) {
     fmt::print("{}: {:.2f} px in the frames used{}\n", r.fits ? "the model fits" : "the model does not fit", r.reprojection_rms,
                r.held_out_rms > 0 ? fmt::format(", {:.2f} px in those held out", r.held_out_rms) : "");
   for (const collision::Alternative& a : r.ambiguous)
-    fmt::print("ambiguous: {} explains it too (restitution {:.3f}, mass ratio {:.3f})\n", a.what, a.restitution, a.mass_ratio);
+    fmt::print("ambiguous: {} explains it too (restitution {:.3f}{})\n", a.what, a.restitution, r.fixed.empty() ? fmt::format(", mass ratio {:.3f}", a.mass_ratio) : "");
   for (const std::string& remark : r.observability) fmt::print("{}\n", remark);
   fmt::print("{}: {}\n", args.no_report ? "result" : "report",
              (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());

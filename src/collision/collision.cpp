@@ -3,6 +3,7 @@
 #include "unseen/collision/collision.h"
 
 #include "collision/describe.h"
+#include "collision/drag.h"
 #include "collision/remarks.h"
 #include "collision/shot_problem.h"
 #include "collision/solve_impacts.h"
@@ -46,6 +47,7 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
   Summary& summary = result.summary;
   const std::array<Solid, 2> solids = {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)};
+  check_drag(shot, options, solids);
   const Evidence evidence = observe(shot, context, summary);
   const Tracks& tracks = evidence.tracks;
   warn_of_footage(evidence.camera, evidence.footage, context);

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/shot_problem.h"
-#include "collision/solve_impacts.h"
+#include "collision/drag.h"
 #include "collision/unknowns.h"
 
 namespace unseen::collision {
@@ -16,7 +15,6 @@ namespace {
 
 constexpr double kScale = 0.05;       // share by which size and gravity may differ
 constexpr double kOtherScale = 0.15;  // the same for bodies whose projected size depends on how they are turned
-constexpr double kDragCost = 4.5;     // ½ χ² that drag must save to be told of
 
 /// Distance by size over distance by gravity, of one body in one impact; nothing if gravity hardly tells.
 std::optional<double> scale_ratio(const SolvedImpact& impact, int body) {
@@ -53,15 +51,6 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
   }
 }
 
-void look_for_drag(const Shot& shot, const std::vector<SolvedImpact>& impacts, Context& context) {
-  if (!impacts.front().solution.problem.fixed || impacts.front().solution.problem.drag[0] > 0.0) return;
-  const double drag = drag_of(shot.bodies[0], impacts.front().solution.problem.solids[0], 0.47);
-  if (drag <= 0.0) return;
-  const double saved = cost_with_drag(impacts, 0.0) - cost_with_drag(impacts, drag);
-  if (saved > kDragCost)
-    context.warn(fmt::format("{}: the air slows it down: with drag the flights fit better (χ² falls by {:.0f}); use --drag on", shot.bodies[0].name, 2.0 * saved));
-}
-
 /// Labels come from sizes; sizes that are alike tell little.
 void doubt_labels(const Shot& shot, const Tracks& tracks, const SolvedImpact& impact, Reconstruction& result, Context& context) {
   constexpr double kAlike = 0.15;  // share
@@ -83,7 +72,6 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
 void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   doubt_labels(shot, tracks, impacts.front(), result, context);
   compare_scales(shot, impacts, context);
-  look_for_drag(shot, impacts, context);
   if (result.fixed.empty() && tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
   const bool refused = std::any_of(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return !i.check.reasons.empty(); });
   if (!result.fits && refused)
@@ -93,6 +81,7 @@ void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedI
     context.warn("no confident restitution: it ends on a bound, 0 or 1");
   else if (!result.restitution)
     context.warn("no confident restitution: the flights tell too little of it");
+  look_for_drag(shot, impacts, result, context);
 }
 
 }  // namespace unseen::collision

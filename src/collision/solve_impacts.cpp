@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "collision/drag.h"
 #include "collision/restitution.h"
 #include "collision/shot_problem.h"
 #include "collision/unknowns.h"
@@ -15,7 +16,6 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kFloor = 0.35;     // rad: an impulse that is this near to the vertical comes from a floor
-constexpr double kMostDrag = 1.0;   // 1/m: a table-tennis ball has 0.13
 
 void add_floor(Problem& problem, const State& state) {
   if (!problem.fixed || problem.gravity == 0.0) return;
@@ -42,35 +42,7 @@ double distinct_share(const std::vector<SolvedImpact>& impacts) {
   return static_cast<double>(distinct.size()) / static_cast<double>(std::max<std::size_t>(1, count));
 }
 
-/// The drag with the lowest cost, by golden section.
-double best_drag(const std::vector<SolvedImpact>& impacts) {
-  constexpr int kRounds = 20;
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-  double low = 0.0, high = kMostDrag;
-  double a = high - ratio * (high - low), b = low + ratio * (high - low), cost_a = cost_with_drag(impacts, a), cost_b = cost_with_drag(impacts, b);
-  for (int i = 0; i < kRounds; ++i) {
-    if (cost_a < cost_b) {
-      high = b, b = a, cost_b = cost_a;
-      cost_a = cost_with_drag(impacts, a = high - ratio * (high - low));
-    } else {
-      low = a, a = b, cost_a = cost_b;
-      cost_b = cost_with_drag(impacts, b = low + ratio * (high - low));
-    }
-  }
-  return 0.5 * (low + high);
-}
-
 }  // namespace
-
-double cost_with_drag(const std::vector<SolvedImpact>& impacts, double drag) {
-  double cost = 0.0;
-  for (const SolvedImpact& impact : impacts) {
-    Problem problem = impact.solution.problem;
-    problem.drag[0] = drag;
-    cost += settle(problem, impact.solution.fit.state).cost;
-  }
-  return cost;
-}
 
 std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
                                           const Tracks& tracks, Context& context) {
@@ -88,11 +60,8 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     context.progress(static_cast<double>(impacts.size()) / static_cast<double>(tracks.meetings.size()));
   }
   if (options.drag == "estimate" && !impacts.empty()) {
-    const double drag = best_drag(impacts);
-    for (SolvedImpact& impact : impacts) {
-      impact.solution.problem.drag[0] = drag;
-      settle_again(impact);
-    }
+    impacts = with_drag(impacts, best_drag(impacts));
+    std::erase_if(impacts, [](const SolvedImpact& impact) { return !impact.solution.fit.usable; });
   }
   return impacts;
 }

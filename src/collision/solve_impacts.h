@@ -22,9 +22,6 @@ void share_gravity(std::vector<SolvedImpact>& impacts);
 /// Solves bounces of a ball again that follow each other on the same floor: it is as high at each of them. That tells of motion along the view ray.
 void share_floor(std::vector<SolvedImpact>& impacts);
 
-/// ½ χ² of all impacts with another drag of the first body (1/m).
-double cost_with_drag(const std::vector<SolvedImpact>& impacts, double drag);
-
 /// Solves the impacts again with one restitution for all.
 void share_restitution(std::vector<SolvedImpact>& impacts);
 

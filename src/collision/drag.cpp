@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/drag.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "collision/restitution.h"
+#include "collision/shot_problem.h"
+#include "unseen/core/error.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kSphere = 0.47;     // Cd
+constexpr double kMostDrag = 1.0;    // 1/m: a table-tennis ball has 0.13
+constexpr double kTried = 0.1;       // 1/m: if it does not help, no drag does
+constexpr double kSaved = 9.0;       // χ² that drag must save to be told of, and
+constexpr double kSavedFreely = 36.0;  // where it is not known but fitted: lopsided regions bend flights a little, too
+constexpr double kRefuted = 25.0;    // χ² that known drag saves where a model without does not fit
+
+/// ½ χ² of all impacts.
+double cost_of(const std::vector<SolvedImpact>& impacts) {
+  double cost = 0.0;
+  for (const SolvedImpact& impact : impacts) cost += impact.solution.fit.usable ? impact.solution.fit.cost : std::numeric_limits<double>::infinity();
+  return cost;
+}
+
+/// The drag of both bodies if the first has `drag`: like shapes, so it goes with the cross-section over the mass.
+Drag shared_out(const SolvedImpact& impact, double drag) {
+  const Problem& problem = impact.solution.problem;
+  if (problem.fixed || problem.solids[0].mass.extent <= 0.0) return {drag, 0.0};
+  const double size = problem.solids[1].mass.extent / problem.solids[0].mass.extent;
+  return {drag, drag * size * size / impact.solution.fit.state.mass_ratio};
+}
+
+/// Drag by the masses of all free bodies; nothing if one has none.
+std::optional<Drag> known_drag(const Shot& shot, const SolvedImpact& impact) {
+  Drag drag{};
+  for (std::size_t o = 0; o < (impact.solution.problem.fixed ? 1 : 2); ++o)
+    if ((drag[o] = drag_of(shot.bodies[o], impact.solution.problem.solids[o], kSphere)) <= 0.0) return std::nullopt;
+  return drag;
+}
+
+/// About the best drag, by a parabola through the costs of three; nothing if drag does not help. `none`: cost without.
+std::optional<Drag> likely_drag(const std::vector<SolvedImpact>& impacts, double none) {
+  const auto cost = [&](double drag) { return cost_of(with_drag(impacts, shared_out(impacts.front(), drag))); };
+  const double some = cost(kTried);
+  if (!(some < none)) return std::nullopt;
+  const double more = cost(2.0 * kTried), bend = none - 2.0 * some + more;
+  const double best = bend > 0.0 ? kTried * (1.0 + 0.5 * (none - more) / bend) : kMostDrag;
+  if (!(best < kMostDrag)) return std::nullopt;  // not the air
+  return shared_out(impacts.front(), best);
+}
+
+void widen(Estimate& estimate, double value) {
+  const double half = 1.96 * estimate.sd;
+  estimate.low = std::clamp(std::min(estimate.low, value - half), 0.0, 1.0);
+  estimate.high = std::clamp(std::max(estimate.high, value + half), 0.0, 1.0);
+  estimate.sd = std::hypot(estimate.sd, value - estimate.value);
+}
+
+/// Adds the solution with drag, whose χ² is lower by `saved`.
+void add_alternative(std::vector<SolvedImpact> solved, double saved, Reconstruction& result) {
+  std::vector<Estimate> each;
+  for (std::size_t k = 0; k < solved.size(); ++k) {
+    add_covariance(solved[k].solution.problem, solved[k].solution.fit);
+    each.push_back(restitution_of(solved[k].solution.problem, solved[k].solution.fit));
+    widen(result.impacts[k].restitution, each.back().value);
+  }
+  const double c = pooled(each).value;
+  if (result.restitution) widen(*result.restitution, c);
+  const double mass_ratio = solved.front().solution.problem.fixed ? 0.0 : solved.front().solution.fit.state.mass_ratio;
+  result.ambiguous.push_back({fmt::format("with drag of the air: c = {:.2f}", c), c, mass_ratio, -saved});
+}
+
+}  // namespace
+
+void check_drag(const Shot& shot, const Options& options, const std::array<Solid, 2>& solids) {
+  if (options.drag != "on") return;
+  for (std::size_t o = 0; o < 2; ++o)
+    if (shot.bodies[o].shape != Shape::fixed && drag_of(shot.bodies[o], solids[o], 1.0) <= 0.0)
+      throw InputError(shot.name, "bodies", fmt::format("no mass of \"{}\"", shot.bodies[o].name), "\"mass\" in kg for drag, or drag = estimate");
+}
+
+std::vector<SolvedImpact> with_drag(std::vector<SolvedImpact> impacts, const Drag& drag) {
+  for (SolvedImpact& impact : impacts) {
+    impact.solution.problem.drag = drag;
+    impact.solution.fit = settle(impact.solution.problem, impact.solution.fit.state);
+  }
+  return impacts;
+}
+
+Drag best_drag(const std::vector<SolvedImpact>& impacts) {
+  constexpr int kRounds = 20;
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  const auto cost = [&](double drag) { return cost_of(with_drag(impacts, shared_out(impacts.front(), drag))); };
+  double low = 0.0, high = kMostDrag;
+  double a = high - ratio * (high - low), b = low + ratio * (high - low), cost_a = cost(a), cost_b = cost(b);
+  for (int i = 0; i < kRounds; ++i) {
+    if (cost_a < cost_b) {
+      high = b, b = a, cost_b = cost_a;
+      cost_a = cost(a = high - ratio * (high - low));
+    } else {
+      low = a, a = b, cost_a = cost_b;
+      cost_b = cost(b = low + ratio * (high - low));
+    }
+  }
+  return shared_out(impacts.front(), 0.5 * (low + high));
+}
+
+void look_for_drag(const Shot& shot, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
+  const Problem& problem = impacts.front().solution.problem;
+  if (problem.drag[0] > 0.0 || problem.drag[1] > 0.0 || problem.planar) return;
+  const double none = cost_of(with_drag(impacts, {0.0, 0.0}));
+  const std::optional<Drag> known = known_drag(shot, impacts.front()), drag = known ? known : likely_drag(impacts, none);
+  if (!drag) return;
+  std::vector<SolvedImpact> solved = with_drag(impacts, *drag);
+  const double saved = 2.0 * (none - cost_of(solved));
+  if (!(saved > (known ? kSaved : kSavedFreely)) || std::isinf(saved)) return;
+  const std::string who = problem.fixed ? shot.bodies[0].name : fmt::format("{} and {}", shot.bodies[0].name, shot.bodies[1].name);
+  context.warn(fmt::format("{}: the air slows {} down: with drag the flights fit better (χ² falls by {:.0f}); {}", who, problem.fixed ? "it" : "them", saved,
+                           known ? "use --drag on" : fmt::format("give the mass and use --drag on, or use --drag estimate (about {:.2f} 1/m)", (*drag)[0])));
+  if (known && saved > kRefuted) result.fits = false;
+  add_alternative(std::move(solved), saved, result);
+}
+
+}  // namespace unseen::collision
