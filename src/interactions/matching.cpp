@@ -19,6 +19,15 @@ double median_depth(const std::vector<const Sight*>& sights) {
   return *middle;
 }
 
+/// The fewest frames between neighbouring sights from `first` to `last`; 0 without neighbours.
+int least_gap(const std::vector<Sight>& sights, int first, int last) {
+  const auto by_frame = [](const Sight& s, int f) { return s.frame < f; };
+  int least = 0;
+  for (auto at = std::lower_bound(sights.begin(), sights.end(), first, by_frame); at != sights.end() && at + 1 != sights.end() && (at + 1)->frame <= last; ++at)
+    least = least == 0 ? (at + 1)->frame - at->frame : std::min(least, (at + 1)->frame - at->frame);
+  return least;
+}
+
 /// The sight nearest to a frame, of two the earlier one; none if there are no sights.
 const Sight* nearest(const std::vector<Sight>& sights, int frame) {
   const auto after = std::lower_bound(sights.begin(), sights.end(), frame, [](const Sight& s, int f) { return s.frame < f; });
@@ -84,9 +93,10 @@ Glance glance_at(const std::vector<Sight>& sights, int frame, double fps, double
   Glance glance;
   glance.center = frame;
   const int reach = static_cast<int>(std::lround(half * fps)), stride = std::max(1, static_cast<int>(std::lround(step * fps)));
+  const int slack = std::min(stride, least_gap(sights, frame - reach, frame + reach)) / 2;
   for (int time = frame - reach / stride * stride; time <= frame + reach; time += stride) {
     const Sight* sight = nearest(sights, time);
-    if (sight == nullptr || 2 * std::abs(sight->frame - time) > stride || std::abs(sight->frame - frame) > reach) continue;
+    if (sight == nullptr || std::abs(sight->frame - time) > slack || std::abs(sight->frame - frame) > reach) continue;
     if (!glance.sights.empty() && glance.sights.back() == sight) continue;
     glance.sights.push_back(sight);
     glance.offsets.push_back((sight->frame - frame) / fps);

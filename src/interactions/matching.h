@@ -26,7 +26,7 @@ struct Glance {
   double depth = 1;             ///< m, rough
 };
 
-/// The sights within `half` seconds of a frame, thinned to one in `step` seconds: those nearest to every step.
+/// The sights within `half` seconds of a frame, thinned to one in `step` seconds; where detections are sparse, those nearest to every step.
 Glance glance_at(const std::vector<Sight>& sights, int frame, double fps, double half, double step);
 
 /// The scenelet's pose some seconds after its middle, between recorded poses; nothing where it has none.
