@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cuboids/clip.h"
+#include "cuboids/edge_contact.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -148,7 +149,7 @@ BestEdges best_edges(const ConvexSolid& a, const ConvexSolid& b) {
     for (const Vec3& v : b.edge_directions) {
       Vec3 normal = u.cross(v);
       const double sine = normal.norm();
-      if (sine < 1e-3) continue;  // parallel: the faces beside them tell
+      if (sine < 1e-3) continue;  // parallel: the faces beside them tell, or along_edges
       normal *= (normal.dot(b.center - a.center) < 0.0 ? -1.0 : 1.0) / sine;
       const double gap = lowest(b, normal) + lowest(a, -normal);
       if (gap > best.gap) best = {normal, gap};
@@ -197,6 +198,8 @@ std::optional<Interface> interface_of(const ConvexSolid& a, const ConvexSolid& b
   const ConvexSolid& under = on_a ? a : b;
   const std::size_t face = on_a ? face_a.face : face_b.face;
   auto result = rest(seat_of(under.planes[face], corners(under, face), 0.0), on_a ? b : a, tolerance);
+  if (!result || result->points.size() <= 2)
+    if (auto along = along_edges(a, b, tolerance)) return along;
   if (result && !on_a) result->normal = -result->normal;
   return result;
 }

@@ -44,7 +44,8 @@ struct Interface {
 /// is fitted 4.6° askew still rests as a whole, while a truly tilted exact block (tolerance 1e-6) rests on its edge.
 /// Beyond 20° of tilt, or if the part is narrower than 5 % of the face, it is the edge or the corner.
 /// A common area that is narrower than `tolerance` and than a quarter of both faces is no contact: boxes that meet
-/// only at the corner of a grid carry nothing. Points lie half-way between the two surfaces.
+/// only at the corner of a grid carry nothing. Parallel edges whose faces do not face each other, as in a card house,
+/// touch along an edge: no face is preferred, the normal lies half-way. Points lie half-way between the two surfaces.
 std::optional<Interface> interface_of(const ConvexSolid& a, const ConvexSolid& b, double tolerance);
 /// The same with a support: its half space behind the plane, within the outline (widened by `tolerance`) if it has one.
 std::optional<Interface> interface_of(const Support& a, const ConvexSolid& b, double tolerance);
