@@ -15,41 +15,40 @@ namespace {
 constexpr std::size_t kProbes = 2000, kNormalProbes = 500;  // for the scale; for whether normals are usable
 constexpr double kSparsest = 3.0;  // times the typical spacing
 
-struct Sample {
-  const std::vector<Vec3>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t a) const { return points[i][a]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Sample>, Sample, 3>;
-
 struct Probe {
   double sixth = 0;  ///< m, distance to the sixth neighbour
-  PlaneFit fit;      ///< of the nearest 32
-  std::size_t index = 0;
+  double noise = 0;  ///< m, of the nearest 32 about their plane, whatever lies beside that
+  Vec3 normal;
+  bool stray = false;  ///< lies beside the surface that its neighbours lie on
 };
 
-std::vector<Probe> probe(const Survey& survey, const Space& space, std::size_t most, const Context& context) {
-  constexpr std::size_t kNeighbours = 32;
-  const Sample sample{survey.sample};
-  const Tree tree(3, sample, {10});
-  std::vector<Probe> probes(std::min(most, survey.sample.size()));
-  const std::size_t count = std::min(kNeighbours, survey.sample.size());
-  parallel_blocks(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t> index(count);
-    std::vector<double> squared(count);
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t found = tree.knnSearch(survey.sample[i].data(), count, index.data(), squared.data());
-      Moments m;
-      for (std::size_t k = 0; k < found; ++k) m += Moments{1.0, survey.sample[index[k]], Mat3::Zero()};
-      probes[i] = {std::sqrt(squared[std::min<std::size_t>(6, found - 1)]), fit_plane(m, space), i};
-    }
-  });
-  return probes;
+PlaneFit fit_points(std::span<const Vec3> points, const Space& space) {
+  Moments m;
+  for (const Vec3& p : points) m += Moments{1.0, p, Mat3::Zero()};
+  return fit_plane(m, space);
+}
+
+/// The noise is that of the four fifths of the points which are nearest to the plane, brought up to that of all
+/// points of a normal distribution.
+Probe probe(Neighbourhood n, const Space& space) {
+  constexpr double kKept = 0.8, kAllOverKept = 1.511, kBeside = 4.0, kFarBeside = 0.25;
+  const double sixth = (n[std::min<std::size_t>(6, n.size() - 1)] - n[0]).norm();
+  const Vec3 itself = n[0];
+  PlaneFit fit = fit_points(n, space);
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : n) mean += p / static_cast<double>(n.size());
+  const auto kept = static_cast<std::size_t>(std::ceil(kKept * static_cast<double>(n.size())));
+  for (int round = 0; round < 2; ++round) {
+    std::sort(n.begin(), n.end(), [&](const Vec3& a, const Vec3& b) {
+      return std::abs(fit.normal.dot(a - mean)) < std::abs(fit.normal.dot(b - mean));
+    });
+    fit = fit_points(std::span(n).first(kept), space);
+    mean = Vec3::Zero();
+    for (std::size_t i = 0; i < kept; ++i) mean += n[i] / static_cast<double>(kept);
+  }
+  const double noise = kAllOverKept * fit.rms;
+  const double beside = std::abs(fit.normal.dot(itself - mean));
+  return {sixth, noise, fit.normal, beside > kBeside * noise && beside > kFarBeside * sixth};
 }
 
 /// Median over the surface rather than over the points: a probe counts for the area (2D: length) it stands for,
