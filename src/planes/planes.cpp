@@ -82,7 +82,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     seen = survey(source, context);
     check_distinct(seen, info.name);
     space = space_of(seen, info.two_dimensional);
-    result.scale = choose_scale(seen, space, options, context);
+    result.scale = choose_scale(source, seen, space, options, context);
     use_normals = normals_usable(seen, space, context);
     result.two_dimensional = space.is_2d();
     if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");

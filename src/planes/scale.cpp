@@ -5,54 +5,69 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nanoflann.hpp>
 
+#include "planes/neighbourhoods.h"
 #include "unseen/core/error.h"
 
 namespace unseen::planes {
 namespace {
 
 constexpr std::size_t kProbes = 2000, kNormalProbes = 500;  // for the scale; for whether normals are usable
-constexpr double kSparsest = 3.0;  // times the typical spacing
+constexpr double kSparsest = 3.0, kFar = 2.0;               // times the typical spacing
+constexpr std::size_t kFewest = 32, kMost = 128;            // neighbours of a probe
+constexpr double kFlat = 0.5;                               // rms over spread of a disc
+constexpr double kThick = 0.3;                              // rms over spacing that is no surface
 
 struct Probe {
-  double sixth = 0;  ///< m, distance to the sixth neighbour
-  double noise = 0;  ///< m, of the nearest 32 about their plane, whatever lies beside that
-  Vec3 normal;
-  bool stray = false;  ///< lies beside the surface that its neighbours lie on
+  double sixth = 0;       ///< m, distance to the sixth neighbour
+  PlaneFit fit;           ///< of the nearest 32, or more where these are no flat disc
+  std::size_t index = 0;  ///< in the sample
 };
 
-PlaneFit fit_points(std::span<const Vec3> points, const Space& space) {
+bool is_flat(const PlaneFit& fit, const Space& space) {
+  return fit.rms < kFlat * (space.is_2d() ? fit.spread_u : fit.spread_v);
+}
+
+/// Where noise exceeds the spacing, the nearest points show no more of it than they are far.
+Probe probe(const Neighbourhood& n, std::size_t index, const Space& space) {
+  Probe p{(n[std::min<std::size_t>(6, n.size() - 1)] - n[0]).norm(), {}, index};
   Moments m;
-  for (const Vec3& p : points) m += Moments{1.0, p, Mat3::Zero()};
-  return fit_plane(m, space);
-}
-
-/// The noise is that of the four fifths of the points which are nearest to the plane, brought up to that of all
-/// points of a normal distribution.
-Probe probe(Neighbourhood n, const Space& space) {
-  constexpr double kKept = 0.8, kAllOverKept = 1.511, kBeside = 4.0, kFarBeside = 0.25;
-  const double sixth = (n[std::min<std::size_t>(6, n.size() - 1)] - n[0]).norm();
-  const Vec3 itself = n[0];
-  PlaneFit fit = fit_points(n, space);
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : n) mean += p / static_cast<double>(n.size());
-  const auto kept = static_cast<std::size_t>(std::ceil(kKept * static_cast<double>(n.size())));
-  for (int round = 0; round < 2; ++round) {
-    std::sort(n.begin(), n.end(), [&](const Vec3& a, const Vec3& b) {
-      return std::abs(fit.normal.dot(a - mean)) < std::abs(fit.normal.dot(b - mean));
-    });
-    fit = fit_points(std::span(n).first(kept), space);
-    mean = Vec3::Zero();
-    for (std::size_t i = 0; i < kept; ++i) mean += n[i] / static_cast<double>(kept);
+  std::size_t next = kFewest;
+  for (std::size_t i = 0; i < n.size(); ++i) {
+    m += Moments{1.0, n[i], Mat3::Zero()};
+    if (i + 1 < std::min(next, n.size())) continue;
+    p.fit = fit_plane(m, space);
+    if (is_flat(p.fit, space)) break;
+    next *= 4;
   }
-  const double noise = kAllOverKept * fit.rms;
-  const double beside = std::abs(fit.normal.dot(itself - mean));
-  return {sixth, noise, fit.normal, beside > kBeside * noise && beside > kFarBeside * sixth};
+  return p;
 }
 
-/// Median over the surface rather than over the points: a probe counts for the area (2D: length) it stands for,
-/// so that a densely sampled corner does not decide for a whole scan.
+/// Probes of the sample; of each the nearest `most` points count.
+std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::size_t count, std::size_t most,
+                                const Context& context) {
+  const SampleTree tree(survey);
+  std::vector<Probe> probes(std::min(count, survey.sample.size()));
+  parallel_blocks(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      probes[i] = probe(tree.around(i, kFewest), i, space);
+      if (most > kFewest && !is_flat(probes[i].fit, space)) probes[i] = probe(tree.around(i, most), i, space);
+    }
+  });
+  return probes;
+}
+
+std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,
+                                std::size_t count, std::size_t most, const Context& context) {
+  std::vector<Probe> probes;
+  for (const Neighbourhood& n : neighbourhoods(source, survey, count, most, context))
+    if (n.size() > 1) probes.push_back(probe(n, 0, space));
+  return probes;
+}
+
+/// Median over the surface rather than over the points: a probe counts for the area (2D: length) it stands
+/// for, so that a densely sampled corner does not decide for a whole scan. One whose neighbours are both far
+/// and no surface is a stray point, and counts for nothing.
 template <class F>
 double median(const std::vector<Probe>& probes, const Space& space, F value) {
   std::vector<double> spacing;
@@ -62,7 +77,8 @@ double median(const std::vector<Probe>& probes, const Space& space, F value) {
   std::vector<std::pair<double, double>> weighted;  // value, weight
   double total = 0;
   for (const Probe& p : probes) {
-    const double side = std::min(p.sixth, kSparsest * *middle);  // stray points stand for nothing
+    const bool stray = p.sixth > kFar * *middle && p.fit.rms > kThick * p.sixth;
+    const double side = stray ? 0.0 : std::min(p.sixth, kSparsest * *middle);
     weighted.emplace_back(value(p), space.is_2d() ? side : side * side);
     total += weighted.back().second;
   }
@@ -75,7 +91,8 @@ double median(const std::vector<Probe>& probes, const Space& space, F value) {
 
 }  // namespace
 
-double choose_scale(const Survey& survey, const Space& space, const Options& options, const Context& context) {
+double choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
+                    const Context& context) {
   const double extent = survey.extent();
   double scale = 0;
   if (options.scale) {
@@ -83,23 +100,23 @@ double choose_scale(const Survey& survey, const Space& space, const Options& opt
   } else if (options.relative_scale) {
     scale = *options.relative_scale * extent;
   } else {
-    const std::vector<Probe> probes = probe(survey, space, kProbes, context);
-    // Thinning a surface to a share f of its points spreads them by 1/√f, a line by 1/f.
-    const double thinning = space.is_2d() ? survey.share : std::sqrt(survey.share);
-    const double spacing = thinning * median(probes, space, [](const Probe& p) { return p.sixth; });
+    const std::vector<Probe> probes = survey.share < 1.0
+                                          ? probe_source(source, survey, space, kProbes, kMost, context)
+                                          : probe_sample(survey, space, kProbes, kMost, context);
+    const double spacing = median(probes, space, [](const Probe& p) { return p.sixth; });
     const double noise = median(probes, space, [](const Probe& p) { return p.fit.rms; });
     scale = std::clamp(std::max(1.25 * spacing, 4.0 * noise), 1e-4 * extent, 0.1 * extent);
   }
-  if (!(scale > 0))
-    throw InputError("", "scale", fmt::format("{} m", scale), "more than 0");
+  if (!(scale > 0)) throw InputError("", "scale", fmt::format("{} m", scale), "more than 0");
   if (!(scale <= extent))
-    throw InputError("", "scale", fmt::format("{} m", scale), fmt::format("less than the scene's extent, {:.6g} m", extent));
+    throw InputError("", "scale", fmt::format("{} m", scale),
+                     fmt::format("less than the scene's extent, {:.6g} m", extent));
   return scale;
 }
 
 bool normals_usable(const Survey& survey, const Space& space, const Context& context) {
   if (!survey.has_normals() || 2 * survey.without_normal > survey.finite) return false;
-  const std::vector<Probe> probes = probe(survey, space, kNormalProbes, context);
+  const std::vector<Probe> probes = probe_sample(survey, space, kNormalProbes, kFewest, context);
   return median(probes, space, [&](const Probe& p) {
            const Vec3 n = survey.sample_normals[p.index].cast<double>();
            return n.norm() > 0.5 ? line_angle(n, p.fit.normal) : kPi / 2;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
-#include <tuple>
 
 #include "planes/scale.h"
 #include "unseen/core/error.h"
@@ -14,7 +13,8 @@ namespace unseen::planes {
 namespace {
 
 constexpr std::size_t kSample = 300'000;
-constexpr std::size_t kMostSought = std::size_t{1} << 25;  // points among which duplicates are sought: 24 bytes each
+constexpr std::size_t kMostSought = std::size_t{1}
+                                    << 25;  // points among which duplicates are sought: 24 bytes each
 
 std::uint64_t mix(std::uint64_t h) {
   h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ull;
@@ -33,8 +33,8 @@ std::uint64_t hash(const PointCloud& cloud, std::size_t point) {
   return cloud.normals.empty() ? 0 : hash(cloud.normals[point].cast<double>());
 }
 
-/// Marks all but one of the points that share their coordinates (two places in 2⁶⁴ have the same hash). Which one
-/// stays does not depend on the order of the points: the one whose normal has the smallest hash.
+/// Marks all but one of the points that share their coordinates (two places in 2⁶⁴ have the same hash). Which
+/// one stays does not depend on the order of the points: the one whose normal has the smallest hash.
 void find_duplicates(PointSource& source, Survey& survey) {
   struct Hashed {
     std::uint64_t position, normal;
@@ -75,8 +75,8 @@ Box neighbourhood(const std::vector<Vec3>& sample) {
   return {box.low.array() - margin, box.high.array() + margin};
 }
 
-/// No-data values and a few points that lie far from all others would stand for the size of the scene: the box
-/// leaves them out, and then the sample speaks for the extent.
+/// No-data values and a few points that lie far from all others would stand for the size of the scene: the
+/// box leaves them out, and then the sample speaks for the extent.
 void leave_out_strays(Survey& s) {
   const Box box = neighbourhood(s.sample);
   if (box.contains(s.low) && box.contains(s.high)) return;
@@ -99,7 +99,8 @@ void leave_out_strays(Survey& s) {
 void check_extent(const Survey& s, const std::string& name) {
   constexpr double kLongest = 1e75;  // m
   if (s.extent() < kLongest) return;
-  throw InputError(name, "points", fmt::format("coordinates from {} to {}", s.low.minCoeff(), s.high.maxCoeff()),
+  throw InputError(name, "points",
+                   fmt::format("coordinates from {} to {}", s.low.minCoeff(), s.high.maxCoeff()),
                    fmt::format("an extent below {} m", kLongest));
 }
 
@@ -109,31 +110,54 @@ struct Sampled {
   Vec3f normal;
 };
 
-/// Sorts by hash, keeps one point of each place, and says whether there were others. All points of a place have
-/// one hash: the sample holds all or none of them.
-bool drop_twins(std::vector<Sampled>& sample) {
-  const auto key = [](const Sampled& x) {
-    return std::tuple(x.hash, x.position.x(), x.position.y(), x.position.z(), hash(x.normal.cast<double>()));
-  };
-  std::sort(sample.begin(), sample.end(), [&](const Sampled& a, const Sampled& b) {
-    return a.hash != b.hash ? a.hash < b.hash : key(a) < key(b);
-  });
-  const auto end = std::unique(sample.begin(), sample.end(),
-                               [](const Sampled& a, const Sampled& b) { return a.position == b.position; });
-  const bool any = end != sample.end();
-  sample.erase(end, sample.end());
-  return any;
-}
-
-/// Brings the sample to at most kSample places. It holds those whose hash starts with `bits` zeros: which these
-/// are depends on all places seen, not on their order.
-void thin(std::vector<Sampled>& sample, int& bits, bool& twins) {
-  twins |= drop_twins(sample);
-  while (sample.size() > kSample) {
-    ++bits;
-    std::erase_if(sample, [&](const Sampled& x) { return x.hash >> (64 - bits) != 0; });
+/// At most kSample of the places seen: those whose hash starts with enough zeros. Which these are depends on
+/// all places seen, not on their order. A place is known by its hash, and holds the normal whose own hash is
+/// smallest.
+class EvenSample {
+ public:
+  bool wants(std::uint64_t hash) const { return zeros_ == 0 || hash >> (64 - zeros_) == 0; }
+  void add(const Sampled& x) {
+    std::uint32_t& slot = slot_of(x.hash);
+    if (slot == 0) {
+      places_.push_back(x);
+      slot = static_cast<std::uint32_t>(places_.size());
+      if (places_.size() > kSample) thin();
+      return;
+    }
+    twins_ = true;
+    Sampled& known = places_[slot - 1];
+    if (hash(x.normal.cast<double>()) < hash(known.normal.cast<double>())) known.normal = x.normal;
   }
-}
+  bool twins() const { return twins_; }
+  std::vector<Sampled> by_hash() && {
+    std::sort(places_.begin(), places_.end(),
+              [](const Sampled& a, const Sampled& b) { return a.hash < b.hash; });
+    return std::move(places_);
+  }
+
+ private:
+  std::uint32_t& slot_of(std::uint64_t hash) {
+    std::size_t at = hash % kSlots;
+    while (slots_[at] != 0 && places_[slots_[at] - 1].hash != hash) at = (at + 1) % kSlots;
+    return slots_[at];
+  }
+  void thin() {
+    while (places_.size() > kSample) {
+      ++zeros_;
+      std::erase_if(places_, [&](const Sampled& x) { return !wants(x.hash); });
+    }
+    std::fill(slots_.begin(), slots_.end(), 0);
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      slot_of(places_[i].hash) = static_cast<std::uint32_t>(i + 1);
+  }
+
+  static constexpr std::size_t kSlots = std::size_t{1} << 20;
+  int zeros_ = 0;
+  bool twins_ = false;
+  std::vector<Sampled> places_;
+  std::vector<std::uint32_t> slots_ =
+      std::vector<std::uint32_t>(kSlots);  ///< index + 1 into places_, 0 = free
+};
 
 }  // namespace
 
@@ -142,9 +166,7 @@ Survey survey(PointSource& source, Context& context) {
   s.low.setConstant(std::numeric_limits<double>::infinity());
   s.high = -s.low;
   const bool normals = source.info().has_normals;
-  std::vector<Sampled> sample;
-  int bits = 0;  // points whose hash starts with this many zeros are in the sample
-  bool twins = false;
+  EvenSample sample;
   const double total = static_cast<double>(source.info().point_count.value_or(0));
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -160,14 +182,12 @@ Survey survey(PointSource& source, Context& context) {
         if (!(length > 0.25f && length < 4.0f)) ++s.without_normal;
       }
       const std::uint64_t h = hash(p);
-      if (bits > 0 && h >> (64 - bits) != 0) continue;
-      sample.push_back({h, p, normal ? block.normals[i] : Vec3f(Vec3f::Zero())});
-      if (sample.size() > 2 * kSample) thin(sample, bits, twins);
+      if (sample.wants(h)) sample.add({h, p, normal ? block.normals[i] : Vec3f(Vec3f::Zero())});
     }
     s.points += block.size();
   });
-  thin(sample, bits, twins);
-  for (const Sampled& x : sample) {
+  const bool twins = sample.twins();
+  for (const Sampled& x : std::move(sample).by_hash()) {
     s.sample.push_back(x.position);
     if (normals) s.sample_normals.push_back(x.normal);
   }
@@ -178,7 +198,8 @@ Survey survey(PointSource& source, Context& context) {
   if (source.cloud() != nullptr || (twins && s.points <= kMostSought))
     find_duplicates(source, s);
   else if (twins)
-    context.warn(fmt::format("some points are duplicates; among more than {} they are not sought", kMostSought));
+    context.warn(
+        fmt::format("some points are duplicates; among more than {} they are not sought", kMostSought));
   s.share = static_cast<double>(s.sample.size()) / static_cast<double>(s.finite - s.duplicates);
   leave_out_strays(s);
   check_extent(s, source.info().name);
@@ -190,7 +211,8 @@ Space space_of(const Survey& survey, bool declared_2d) {
   const Vec3 extent = survey.high - survey.low;
   if (declared_2d) space.flat_axis = Vec3::UnitZ();
   for (int a = 2; a >= 0 && !space.is_2d(); --a)
-    if (extent[a] == 0.0 && extent[(a + 1) % 3] > 0.0 && extent[(a + 2) % 3] > 0.0) space.flat_axis = Vec3::Unit(a);
+    if (extent[a] == 0.0 && extent[(a + 1) % 3] > 0.0 && extent[(a + 2) % 3] > 0.0)
+      space.flat_axis = Vec3::Unit(a);
   if (space.is_2d()) space.flat_at = space.flat_axis->dot(survey.low);
   return space;
 }

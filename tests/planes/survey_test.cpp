@@ -136,47 +136,6 @@ PointCloud plane_cloud(double spacing, double noise) {
   return cloud;
 }
 
-double estimate(const PointCloud& cloud) {
-  const Survey s = look_at(cloud);
-  return choose_scale(s, space_of(s, false), Options());
-}
-
-TEST(ChooseScale, FollowsTheSpacing) {
-  for (const double spacing : {0.01, 0.02, 0.04}) {
-    // The sixth neighbour of a grid of one point per spacing² lies at about √(6/π) spacings.
-    const double expected = 1.25 * std::sqrt(6 / kPi) * spacing;
-    const double scale = estimate(plane_cloud(spacing, 0.0));
-    EXPECT_GT(scale, 0.8 * expected);
-    EXPECT_LT(scale, 1.2 * expected);
-  }
-}
-
-TEST(ChooseScale, FollowsTheNoiseWhereThatIsLarger) {
-  const double scale = estimate(plane_cloud(0.02, 0.015));
-  EXPECT_GT(scale, 2.0 * 0.015);
-  EXPECT_LT(scale, 5.0 * 0.015);
-}
-
-/// Thinning to a sample must not coarsen the estimate.
-TEST(ChooseScale, IsThatOfTheWholeCloud) {
-  const PointCloud cloud = plane_cloud(0.0023, 0.0);  // 600 000 points
-  ASSERT_LT(look_at(cloud).share, 0.6);
-  const double expected = 1.25 * std::sqrt(6 / kPi) * 0.0023;
-  EXPECT_NEAR(estimate(cloud), expected, 0.2 * expected);
-}
-
-TEST(ChooseScale, TakesWhatItIsTold) {
-  const Survey s = look_at(plane_cloud(0.02, 0.0));
-  Options options;
-  options.relative_scale = 0.05;
-  EXPECT_NEAR(choose_scale(s, {}, options), 0.05 * s.extent(), 1e-12);
-  options.relative_scale.reset();
-  options.scale = 0.123;
-  EXPECT_EQ(choose_scale(s, {}, options), 0.123);
-  options.scale = 5.0;
-  EXPECT_THROW(choose_scale(s, {}, options), InputError);
-}
-
 TEST(NormalsUsable, OnlyIfTheyAgreeWithTheSurface) {
   PointCloud cloud = plane_cloud(0.02, 0.001);
   const auto usable = [&] {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <nanoflann.hpp>
+
+#include "planes/scale.h"
+
+namespace unseen::planes {
+
+/// The points nearest to a probe, itself first, by rising distance.
+using Neighbourhood = std::vector<Vec3>;
+
+/// Finds neighbourhoods in a survey's sample, which it refers to.
+class SampleTree {
+ public:
+  explicit SampleTree(const Survey& survey);
+  /// At most `points` points around one of the sample.
+  Neighbourhood around(std::size_t probe, std::size_t points) const;
+
+ private:
+  struct Sample {
+    const std::vector<Vec3>& points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t a) const { return points[i][a]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+  Sample sample_;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Sample>, Sample, 3> tree_;
+};
+
+/// Neighbourhoods, of at most `points` points each, of the first points of a survey's sample among all points
+/// of the source. One that is eight times as far from others as half of them are has none.
+std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& survey, std::size_t probes,
+                                          std::size_t points, const Context& context);
+
+}  // namespace unseen::planes

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// The estimated scale: spacing and noise of the surfaces, whatever else a scan holds.
+#include <gtest/gtest.h>
+
+#include "planes/scale.h"
+#include "planes/scenes.h"
+#include "unseen/core/error.h"
+
+namespace unseen::planes {
+namespace {
+
+PointCloud plane_cloud(double spacing, double noise) {
+  PointCloud cloud;
+  Random random(9);
+  test::add_rectangle(cloud, {0, 0, 0}, {2, 0, 0.4}, {0, 1.6, 0}, spacing, noise, random);
+  return cloud;
+}
+
+double extent_of(const PointCloud& cloud) {
+  CloudSource source(cloud);
+  Context context;
+  return survey(source, context).extent();
+}
+
+double scale_of(const PointCloud& cloud, const Options& options = {}) {
+  CloudSource source(cloud);
+  Context context;
+  const Survey s = survey(source, context);
+  return choose_scale(source, s, space_of(s, false), options);
+}
+
+TEST(ChooseScale, FollowsTheSpacing) {
+  for (const double spacing : {0.01, 0.02, 0.04}) {
+    // The sixth neighbour of a grid of one point per spacing² lies at about √(6/π) spacings.
+    const double expected = 1.25 * std::sqrt(6 / kPi) * spacing;
+    const double scale = scale_of(plane_cloud(spacing, 0.0));
+    EXPECT_GT(scale, 0.8 * expected);
+    EXPECT_LT(scale, 1.2 * expected);
+  }
+}
+
+TEST(ChooseScale, FollowsTheNoiseWhereThatIsLarger) {
+  const double scale = scale_of(plane_cloud(0.02, 0.015));
+  EXPECT_GT(scale, 2.0 * 0.015);
+  EXPECT_LT(scale, 5.0 * 0.015);
+}
+
+/// Thinning to a sample must not coarsen the estimate.
+TEST(ChooseScale, IsThatOfTheWholeCloud) {
+  const PointCloud cloud = plane_cloud(0.0023, 0.0);  // 600 000 points, twice what a sample holds
+  const double expected = 1.25 * std::sqrt(6 / kPi) * 0.0023;
+  EXPECT_NEAR(scale_of(cloud), expected, 0.2 * expected);
+}
+
+TEST(ChooseScale, TakesWhatItIsTold) {
+  const PointCloud cloud = plane_cloud(0.02, 0.0);
+  Options options;
+  options.relative_scale = 0.05;
+  EXPECT_NEAR(scale_of(cloud, options), 0.05 * extent_of(cloud), 1e-12);
+  options.relative_scale.reset();
+  options.scale = 0.123;
+  EXPECT_EQ(scale_of(cloud, options), 0.123);
+  options.scale = 5.0;
+  EXPECT_THROW(scale_of(cloud, options), InputError);
+}
+
+/// Noise above the spacing: the nearest points alone would show little of it.
+TEST(ChooseScale, FollowsNoiseFarAboveTheSpacing) {
+  const double scale = scale_of(plane_cloud(0.008, 0.02));
+  EXPECT_GT(scale, 3.0 * 0.02);
+  EXPECT_LT(scale, 5.0 * 0.02);
+}
+
+TEST(ChooseScale, StrayPointsDoNotCount) {
+  PointCloud cloud = plane_cloud(0.02, 0.002);
+  const double without = scale_of(cloud);
+  Random random(11);
+  for (std::size_t i = cloud.size() / 4; i > 0; --i)
+    cloud.positions.emplace_back(random.uniform(0, 2), random.uniform(0, 1.6), random.uniform(-1, 1.5));
+  EXPECT_NEAR(scale_of(cloud), without, 0.15 * without);
+}
+
+/// The two sides of a wall are one neighbourhood in a thinned sample, but not in the whole cloud.
+TEST(ChooseScale, BothSidesOfAThinWallAreNoNoise) {
+  PointCloud cloud;
+  Random random(12);
+  for (const double y : {0.0, 0.03})
+    test::add_rectangle(cloud, {0, y, 0}, {3, 0, 0}, {0, 0, 2}, 0.002, 0.0005, random);
+  ASSERT_GT(cloud.size(), 2'000'000u);
+  EXPECT_NEAR(scale_of(cloud), 1.25 * std::sqrt(6 / kPi) * 0.002, 0.001);
+}
+
+}  // namespace
+}  // namespace unseen::planes
