@@ -30,7 +30,12 @@ std::string command_name(const CLI::App& app) {
 int run(const CLI::App& app, const std::vector<Command>& commands) {
   try {
     for (const Command& command : commands)
-      if (command.app->parsed()) return command.run();
+      if (command.app->parsed()) {
+        const int code = command.run();
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+          throw InputError("standard output", "text", "no room, or nobody to read it", "a place to write to");
+        return code;
+      }
     throw UsageError("a subcommand is missing");
   } catch (const UsageError& e) {
     return report(kUsage, fmt::format("{}; see {} --help", e.what(), command_name(app)));

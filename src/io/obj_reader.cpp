@@ -18,6 +18,7 @@ class ObjReader {
   TriangleMesh read() {
     std::string_view line;
     while (lines_.next_filled(line)) {
+      if (line.back() == '\\') line = continued(line);
       const char* p = line.data();
       const char* const end = line.data() + line.size();
       while (p != end && is_blank(*p)) ++p;
@@ -40,6 +41,16 @@ class ObjReader {
     throw InputError(input_.name, field, found, expected);
   }
   std::string here(const char* what) const { return "line " + std::to_string(lines_.number()) + ", " + what; }
+
+  /// A line that ends with a backslash, and those that continue it.
+  std::string_view continued(std::string_view line) {
+    joined_.clear();
+    while (!line.empty() && line.back() == '\\') {
+      joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
+      if (!lines_.next(line)) line = {};
+    }
+    return joined_ += line;
+  }
 
   void read_vertex(std::string_view rest) {
     const char *p = rest.data(), *end = rest.data() + rest.size();
@@ -77,6 +88,7 @@ class ObjReader {
 
   const Input& input_;
   Lines lines_;
+  std::string joined_;
   TriangleMesh mesh_;
   std::vector<std::uint32_t> corners_;
   std::map<std::string, std::int32_t> groups_;

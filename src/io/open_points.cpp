@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include "io/depth_frames.h"
+#include "io/ply_header.h"
 #include "io/readers.h"
 #include "io/sniff.h"
 #include "io/text.h"
@@ -12,6 +13,14 @@ namespace {
 std::string extension_of(const std::filesystem::path& path) {
   const std::string extension = lower(path.extension().string());
   return extension.empty() ? extension : extension.substr(1);
+}
+
+/// A mesh that somebody drew, rather than a meshed scan, whose vertices say more than its faces.
+bool is_drawn_mesh(const Input& input) {
+  constexpr std::size_t kFewVertices = 1000;
+  const PlyHeader header = read_ply_header(input.view(), input.name);
+  const PlyElement *vertex = header.find("vertex"), *face = header.find("face");
+  return vertex && vertex->count < kFewVertices && face && face->count > 0;
 }
 
 }  // namespace
@@ -34,7 +43,7 @@ Input input_from_memory(std::string bytes, const std::string& name, const ReadOp
 std::unique_ptr<PointSource> open_file(const Input& input) {
   switch (decide_format(input.view(), input.name, input.extension)) {
     case Format::ply:
-      return open_ply(input);
+      return is_drawn_mesh(input) ? open_mesh(input) : open_ply(input);
     case Format::pcd:
       return open_pcd(input);
     case Format::las:

@@ -55,7 +55,7 @@ Format sniff_text(std::string_view head) {
     }
     if (is_one_of(fields[0], {"VERSION", "FIELDS", "COLUMNS"})) return Format::pcd;
     if (is_one_of(fields[0], {"OFF", "COFF", "NOFF", "CNOFF", "STOFF"})) return Format::off;
-    if (fields[0] == "solid" && head.find("facet") != std::string_view::npos) return Format::stl;
+    if (lower(fields[0]) == "solid" && lower(head).find("facet") != std::string::npos) return Format::stl;
     if (is_one_of(fields[0], {"v", "vn", "vt", "f", "o", "g", "s", "mtllib", "usemtl"}) && fields.size() > 1)
       return Format::obj;
     break;

@@ -49,11 +49,12 @@ TriangleMesh read_text(const Input& input) {
   };
   while (lines.next_filled(line)) {
     const auto fields = words(line);
-    if (fields[0] == "endfacet") {
+    const std::string key = lower(fields[0]);
+    if (key == "endfacet") {
       if (found != 3) fail(count_of(found, "vertex line") + " in a facet", "3");
       append_triangle(corners, mesh);
       found = 0;
-    } else if (fields[0] == "vertex") {
+    } else if (key == "vertex") {
       if (found == 3) fail("a fourth vertex in a facet", "3");
       for (std::size_t k = 0; k < 3; ++k)
         if (fields.size() != 4 || !to_number(fields[k + 1], corners[found][static_cast<Eigen::Index>(k)]))
@@ -68,8 +69,8 @@ TriangleMesh read_text(const Input& input) {
 }  // namespace
 
 TriangleMesh read_stl(const Input& input) {
-  const std::string_view head = input.view().substr(0, 4096);
-  const bool text = head.substr(0, 5) == "solid" && head.find("facet") != std::string_view::npos;
+  const std::string head = lower(input.view().substr(0, 4096));
+  const bool text = head.starts_with("solid") && head.find("facet") != std::string::npos;
   TriangleMesh mesh = text ? read_text(input) : read_binary(input);
   if (mesh.triangles.empty()) throw InputError(input.name, "triangles", "none", "triangles");
   return mesh;

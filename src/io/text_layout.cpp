@@ -96,17 +96,34 @@ class Guess {
         part = part.substr(1, part.size() - 2);
       names.emplace_back(part);
     }
-    const auto has = [&](const char* name) {
-      return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return lower(n) == name; });
+    const auto has = [&](Role role) {
+      return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return role_of_name(n, false, "") == role; });
     };
-    if (has("x") && has("y")) names_ = std::move(names);
+    if (has(Role::x) && has(Role::y)) names_ = std::move(names);
   }
 
   void guess_separator(std::string_view line) {
     const bool semicolon = line.find(';') != std::string_view::npos;
-    const bool comma = line.find(',') != std::string_view::npos;
+    const bool comma = line.find(',') != std::string_view::npos && !has_decimal_commas(line);
     layout_.separator = semicolon ? ';' : comma ? ',' : ' ';
-    layout_.decimal_comma = semicolon && comma;
+    layout_.decimal_comma = has_decimal_commas(line);
+  }
+
+  /// Commas between the digits of numbers that something else separates.
+  static bool has_decimal_commas(std::string_view line) {
+    const bool semicolon = line.find(';') != std::string_view::npos;
+    const auto parts = split_row(line, semicolon ? ';' : ' ');
+    bool any = false;
+    for (const std::string_view part : parts) {
+      double value = 0;
+      if (to_number(part, value)) continue;
+      if (std::count(part.begin(), part.end(), ',') != 1 || part.back() == ',' || !row_number(part, true, value)) {
+        if (!semicolon) return false;
+        continue;
+      }
+      any = true;
+    }
+    return any && parts.size() > 1;
   }
 
   void take_sample(std::string_view bytes) {
@@ -115,6 +132,7 @@ class Guess {
     std::string_view line;
     while (sample_.size() < kSample && lines.next_filled(line)) {
       if (is_remark(line)) continue;
+      layout_.decimal_comma = layout_.decimal_comma || (layout_.separator != ',' && has_decimal_commas(line));
       const auto parts = split_row(line, layout_.separator);
       if (sample_.empty()) width_ = parts.size();
       if (parts.size() != width_) break;  // the reader says what it found there, if it matters

@@ -96,7 +96,8 @@ class TextSource final : public PointSource {
   }
 
   void read_row(PointCloud& block, std::size_t i) {
-    if (layout_.separator != ' ' || line_.find('"') != std::string_view::npos) return read_parts(block, i);
+    if (layout_.separator != ' ' || layout_.decimal_comma || line_.find('"') != std::string_view::npos)
+      return read_parts(block, i);
     const char *p = line_.data(), *end = line_.data() + line_.size();
     for (const Column& column : layout_.columns) {
       double value = 0;
@@ -121,7 +122,8 @@ class TextSource final : public PointSource {
     const std::vector<Column>& columns = layout_.columns;
     std::string_view rest = line_;
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      const std::size_t at = rest.find(separator);
+      if (separator == ' ') rest = trim(rest);
+      const std::size_t at = separator == ' ' ? rest.find_first_of(" \t") : rest.find(separator);
       if ((at == std::string_view::npos) != (c + 1 == columns.size())) fail_row();
       const std::string_view part = trim(rest.substr(0, at));
       double value = 0;

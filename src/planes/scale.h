@@ -27,7 +27,7 @@ struct Survey {
 
 Survey survey(PointSource& source, Context& context);
 
-/// The space of a survey: 2D if all points share a coordinate.
+/// The space of a survey: 2D if all points share a coordinate and lie on lines.
 Space space_of(const Survey& survey, bool declared_2d);
 
 /// ρ from the options, or, if they give none, the larger of 1.25 times the distance to the sixth neighbour and

@@ -3,12 +3,13 @@
 """Input that cannot be used: exit code 3, one line, nothing written, and an earlier result stays."""
 
 import json
+import subprocess
 import unittest
 import zlib
 
 import numpy
 
-from harness import CliTest, contents, room, write_ply
+from harness import PROGRAM, CliTest, contents, room, write_ply
 
 HEADER = "ply\nformat {}\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
 
@@ -108,6 +109,14 @@ class BadInput(CliTest):
                 self.assert_one_line(self.unseen("planes", "room.ply", "-o", out), 3, out)
         (self.folder / "file").unlink()
         self.assertEqual(contents(self.folder), before)
+
+    def test_standard_output_without_room(self):
+        self.room_file()
+        with open("/dev/full", "w") as full:
+            run = subprocess.run([PROGRAM, "planes", "room.ply", "-o", "new", "--json"], cwd=self.folder, stdout=full,
+                                 stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("standard output", run.stderr)
 
     def test_result_of_another_kind(self):
         self.write("truth.json", "[" * 100000)

@@ -30,6 +30,12 @@ TEST(Mesh, ObjPolygonsNegativeIndicesGroupsAndDegenerateFaces) {
   EXPECT_EQ(mesh.vertices[4].x(), 500000.123456789);
 }
 
+TEST(Mesh, ObjLinesMayContinue) {
+  const TriangleMesh mesh = read_mesh_in_memory(
+      "v 0 \\\n0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 \\\r\n 3 \\\n4\nf 1 2 3 \\", "a.obj");
+  EXPECT_DOUBLE_EQ(area(mesh), 6.0);
+}
+
 TEST(Mesh, ADentedPolygonKeepsItsArea) {
   const TriangleMesh mesh =
       read_mesh_in_memory("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n", "a.obj");
@@ -44,6 +50,11 @@ TEST(Mesh, OffStlAndPly) {
   EXPECT_DOUBLE_EQ(
       area(read_mesh_in_memory("solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\n"
                                "vertex 2 2 0\nendloop\nendfacet\nendsolid\n",
+                               "a.stl")),
+      2.0);
+  EXPECT_DOUBLE_EQ(
+      area(read_mesh_in_memory("SOLID S\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 2 0 0\n"
+                               "VERTEX 2 2 0\nENDLOOP\nENDFACET\nENDSOLID\n",
                                "a.stl")),
       2.0);
   std::string stl(80, ' ');
@@ -82,6 +93,22 @@ TEST(Mesh, OpenPointsSamplesAndTakesVerticesWhereThereAreNoFaces) {
   options.mesh_samples = 100;
   EXPECT_EQ(read(std::string(kSquare) + "f 1 2 3\n", "a.obj", options).size(), 100u);
   EXPECT_EQ(read(kSquare, "a.obj", options).size(), 4u);
+}
+
+/// A PLY file with faces is a drawn mesh if its vertices are few, a meshed scan if they are many.
+TEST(Mesh, PlyWithFacesIsSampledIfItWasDrawn) {
+  ReadOptions options;
+  options.mesh_samples = 100;
+  const auto ply = [](int vertices) {
+    std::string s =
+        "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertices) +
+        "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
+        "vertex_indices\nend_header\n";
+    for (int i = 0; i < vertices; ++i) s += std::to_string(i % 2) + " " + std::to_string(i / 2) + " 0\n";
+    return s + "3 0 1 2\n";
+  };
+  EXPECT_EQ(read(ply(4), "a.ply", options).size(), 100u);
+  EXPECT_EQ(read(ply(5000), "a.ply", options).size(), 5000u);
 }
 
 TEST(Mesh, FaultsNameFileAndField) {

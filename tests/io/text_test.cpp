@@ -14,12 +14,14 @@ std::string notes_of(const std::string& bytes, const std::string& name) {
 }
 
 TEST(Text, PositionsWithAnySeparator) {
-  for (const char* s : {"1 2 3\n4 5 6\n", "1,2,3\n4,5,6\n", "1;2;3\r\n4;5;6\r\n", "1\t2\t3\n\n4\t5\t6",
-                        "  1   2 3 \n4 5 6", "# remark\n1, 2, 3\n4, 5, 6", "1,0;2,0;3\n4;5,0;6\n",
-                        "\xef\xbb\xbf"
-                        "1 2 3\n4 5 6\n",
-                        "x,y,z\n1,2,3\n4,5,6\n", "2\n1 2 3\n4 5 6\n",
-                        "\"1\",\"2\",\"3\"\n\"4\",\"5\",\"6\"\n", "+1 2 3\n4 5 6\n"}) {
+  for (const char* s :
+       {"1 2 3\n4 5 6\n", "1,2,3\n4,5,6\n", "1;2;3\r\n4;5;6\r\n", "1\t2\t3\n\n4\t5\t6", "  1   2 3 \n4 5 6",
+        "# remark\n1, 2, 3\n4, 5, 6", "1,0;2,0;3\n4;5,0;6\n", "1;2;3\n4,0;5,0;6,0\n",
+        "1,0 2,0 3,0\n4,0 5,0 6,0\n", "X\tY\tZ\n1,0\t2,0\t3\n4\t5,0\t6\n", "1 2 3\n4,0  5,0 6\n",
+        "\xef\xbb\xbf"
+        "1 2 3\n4 5 6\n",
+        "x,y,z\n1,2,3\n4,5,6\n", "2\n1 2 3\n4 5 6\n", "\"1\",\"2\",\"3\"\n\"4\",\"5\",\"6\"\n",
+        "+1 2 3\n4 5 6\n"}) {
     const PointCloud cloud = read(s, "a.xyz");
     ASSERT_EQ(cloud.size(), 2u) << s;
     EXPECT_EQ(cloud.positions[0], Vec3(1, 2, 3)) << s;
@@ -52,6 +54,7 @@ TEST(Text, ANamedHeaderDecides) {
   EXPECT_EQ(cloud.positions[1], Vec3(4, 5, 6));
   EXPECT_EQ(cloud.labels, (std::vector<std::int32_t>{4, 5}));
   EXPECT_EQ(cloud.colors[0], (std::array<std::uint8_t, 3>{128, 0, 255}));
+  EXPECT_EQ(read("id,Easting,Northing,height\n7,1,2,3\n8,4,5,6\n", "a.csv").positions[1], Vec3(4, 5, 6));
   EXPECT_EQ(read("//X Y Z Nx Ny Nz\n1 2 3 0 0 2\n", "a.asc").normals[0], Vec3f(0, 0, 2));
 }
 

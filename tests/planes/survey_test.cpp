@@ -122,6 +122,22 @@ TEST(SpaceOf, NoticesDrawingsInEachCoordinatePlane) {
   EXPECT_EQ(*space_of(look_at(scattered(10, 7)), true).flat_axis, Vec3(Vec3::UnitZ()));
 }
 
+/// A flat cloud is a drawing if it consists of lines, however thick, and a plane if it fills an area.
+TEST(SpaceOf, AFilledAreaIsNoDrawing) {
+  for (const std::size_t count : {1000u, 20'000u, 400'000u}) {
+    PointCloud area = scattered(count, 9), lines = area;
+    Random random(10);
+    for (Vec3& p : area.positions) p.z() = 0;
+    for (Vec3& p : lines.positions) {
+      const double t = random.uniform(0, 3), d = random.normal() * 0.02;
+      p = random.uniform() < 0.5 ? Vec3(t, random.uniform() < 0.5 ? d : 2 + d, 0)
+                                 : Vec3(random.uniform() < 0.5 ? d : 3 + d, 2 * t / 3, 0);
+    }
+    EXPECT_FALSE(space_of(look_at(area), false).is_2d()) << count;
+    EXPECT_TRUE(space_of(look_at(lines), false).is_2d()) << count;
+  }
+}
+
 /// A line along an axis is flat in two coordinates; it is no drawing.
 TEST(SpaceOf, ALineIsNoDrawing) {
   PointCloud cloud = scattered(100, 8);
