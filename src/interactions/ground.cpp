@@ -8,21 +8,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interactions/sight.h"
+#include "interactions/tilted_floor.h"
+#include "interactions/upright.h"
 
 namespace unseen::interactions {
 namespace {
 
-constexpr double kAnkleHeight = 0.13;         // m, of the joint that detectors mark
-constexpr double kTorso = 0.44, kLeg = 0.77;  // m, shoulders to hips and hip to ankle of an adult of 1.7 m
 constexpr double kUsualHeight = 1.3, kHeightSd = 0.4;         // m, of cameras that film people
 constexpr double kUsualPitch = 0.06, kPitchSd = 0.06;         // rad
-constexpr double kKnownSd = 1e-4;                             // of what the take gives
 constexpr double kSteepest = 1.4;                             // rad; whose camera is steeper sees nobody upright
 constexpr double kVertical = 1e-6;                            // of `up` across the view, below which there is no roll
-constexpr double kPoseSd = 0.05, kStatureSd = 0.06;           // of a length in the picture, as a share: who leans, and who is tall
-constexpr double kRough = 1.5;                                // sd beyond which a foot counts less and less
-constexpr double kCorrelated = 0.5;                           // s that one stance lasts
 
 /// The lower ankle of someone upright: how far below the camera's axis it is seen (a tangent), and the inverse of its depth by the length of the body, 1/m.
 struct Foot {
@@ -30,25 +25,10 @@ struct Foot {
   int person;
 };
 
-/// The lower leg in the picture if it stands upright: its length and the row of its ankle, px.
-std::optional<Vec2> upright_leg(const Detection& d, Joint hip, Joint knee, Joint ankle, double torso) {
-  constexpr double kThigh = 0.7, kShin = 0.55;  // of the torso; a thigh that is seen shorter is bent
-  for (const Joint joint : {hip, knee, ankle})
-    if (d.confidence[joint] < kSeen) return std::nullopt;
-  if (d.pixels(1, knee) - d.pixels(1, hip) < kThigh * torso || d.pixels(1, ankle) - d.pixels(1, knee) < kShin * torso) return std::nullopt;
-  const double length = (d.pixels.col(hip) - d.pixels.col(knee)).norm() + (d.pixels.col(knee) - d.pixels.col(ankle)).norm();
-  return Vec2(length, d.pixels(1, ankle));
-}
-
 std::optional<Foot> lower_foot(const Detection& d, const Camera& camera) {
-  for (const Joint joint : {right_shoulder, left_shoulder, right_hip, left_hip})
-    if (d.confidence[joint] < kSeen) return std::nullopt;
-  const double torso = 0.5 * (d.pixels.col(right_shoulder) + d.pixels.col(left_shoulder) - d.pixels.col(right_hip) - d.pixels.col(left_hip)).norm();
-  if (!(torso > 1)) return std::nullopt;
-  std::optional<Vec2> leg = upright_leg(d, right_hip, right_knee, right_ankle, torso);
-  if (const auto other = upright_leg(d, left_hip, left_knee, left_ankle, torso); other && (!leg || other->y() > leg->y())) leg = other;
-  if (!leg) return std::nullopt;
-  return Foot{(leg->y() - camera.cy) / camera.fy, (torso + leg->x()) / camera.fy / (kTorso + kLeg), d.person};
+  const auto body = upright_body(d);
+  if (!body) return std::nullopt;
+  return Foot{(body->ankle - camera.cy) / camera.fy, (body->torso + body->leg) / camera.fy / (kTorso + kLeg), d.person};
 }
 
 /// The detection as a camera that is not rolled has it: turned about the principal point.
@@ -146,6 +126,8 @@ GroundStart find_ground(const Take& take, Context& context) {
   if (!take.up) ground.pitch = std::atan(floor.slope);
   ground.camera_height = take.camera_height.value_or(floor.height * std::cos(ground.pitch) + kAnkleHeight);
   start.information = floor.information;
+  if (!take.up && !feet.empty())  // the seated alone would look like the foreshortened
+    if (const auto tilted = tilted_floor(take, start)) start = *tilted;
   if (std::abs(ground.pitch) < kSteepest && is_turned(take, ground.roll))
     context.warn(take.up ? "most people are not upright in the picture: \"up\" may be wrong" : "most people are not upright in the picture: if it is turned, say so by \"up\"");
   if (feet.empty() && !take.camera_height)
