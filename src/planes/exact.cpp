@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <CbcEventHandler.hpp>
 #include <CbcModel.hpp>
+#include <ClpEventHandler.hpp>
 #include <CoinPackedMatrix.hpp>
 #include <OsiClpSolverInterface.hpp>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
@@ -16,8 +19,9 @@ namespace {
 struct Program {
   std::vector<double> cost, low, high;
   std::vector<int> integer;
-  CoinPackedMatrix rows{false, 0, 0};
-  std::vector<double> row_low, row_high;
+  std::vector<double> row_low, row_high, factors;
+  std::vector<int> variables;              // of the factors
+  std::vector<CoinBigIndex> starts = {0};  // of rows among the factors
 
   int variable(double c, bool is_integer) {
     cost.push_back(c);
@@ -27,11 +31,23 @@ struct Program {
     return static_cast<int>(cost.size()) - 1;
   }
   void row(const std::vector<std::pair<int, double>>& terms, double at_least, double at_most) {
-    CoinPackedVector v;
-    for (const auto& [i, a] : terms) v.insert(i, a);
-    rows.appendRow(v);
+    for (const auto& [i, a] : terms) {
+      variables.push_back(i);
+      factors.push_back(a);
+    }
+    starts.push_back(static_cast<CoinBigIndex>(factors.size()));
     row_low.push_back(at_least);
     row_high.push_back(at_most);
+  }
+  CoinPackedMatrix rows() const {
+    return {false,
+            static_cast<int>(cost.size()),
+            static_cast<int>(row_low.size()),
+            static_cast<CoinBigIndex>(factors.size()),
+            factors.data(),
+            variables.data(),
+            starts.data(),
+            nullptr};
   }
 };
 
@@ -51,7 +67,6 @@ Variables write_program(const SelectionProblem& p, Program& program) {
   for (int j = 0; j < p.patches(); ++j)
     for (int k = 0; k < p.frames(); ++k)
       if (std::isfinite(p.data(j, k))) v.candidate[j][k] = program.variable(p.lambda * p.data(j, k), true);
-  program.rows.setDimensions(0, static_cast<int>(program.cost.size()));
   for (const auto& candidates : v.candidate) {
     std::vector<std::pair<int, double>> one;
     for (const auto& [k, x] : candidates) {
@@ -65,13 +80,11 @@ Variables write_program(const SelectionProblem& p, Program& program) {
       const double cost = (1.0 - p.lambda) * p.irregularity(a, b);
       if (cost <= 0.0) continue;
       const int both = program.variable(cost, false);
-      program.rows.setDimensions(-1, static_cast<int>(program.cost.size()));
       program.row({{v.frame[a], 1.0}, {v.frame[b], 1.0}, {both, -1.0}}, -kFree, 1.0);
     }
   for (const auto& [a, b] : p.neighbours) {
     if (p.smoothness() <= 0.0) break;
     const int differ = program.variable(p.smoothness(), false);
-    program.rows.setDimensions(-1, static_cast<int>(program.cost.size()));
     std::set<int> orientations;
     for (const auto& [k, x] : v.candidate[a]) orientations.insert(p.orientation(a, k));
     for (const int o : orientations) {
@@ -86,9 +99,38 @@ Variables write_program(const SelectionProblem& p, Program& program) {
   return v;
 }
 
+/// When the solver must give up: it looks at its own limit of time too rarely.
+struct Limit {
+  const Context& context;
+  std::chrono::steady_clock::time_point end;
+  bool reached() const { return context.stop.stop_requested() || std::chrono::steady_clock::now() > end; }
+};
+
+/// End the search, and the linear programs within. The solvers copy their handlers.
+class LimitedSearch : public CbcEventHandler {
+ public:
+  explicit LimitedSearch(const Limit& limit) : limit_(limit) {}
+  CbcAction event(CbcEvent) override { return limit_.reached() ? stop : noAction; }
+  CbcEventHandler* clone() const override { return new LimitedSearch(*this); }
+
+ private:
+  Limit limit_;
+};
+
+class LimitedProgram : public ClpEventHandler {
+ public:
+  explicit LimitedProgram(const Limit& limit) : limit_(limit) {}
+  int event(Event) override { return limit_.reached() ? 0 : -1; }
+  ClpEventHandler* clone() const override { return new LimitedProgram(*this); }
+
+ private:
+  Limit limit_;
+};
+
 }  // namespace
 
-ExactSolution solve_exact(const SelectionProblem& p, const Labels& start, double seconds, const Context& context) {
+ExactSolution solve_exact(const SelectionProblem& p, const Labels& start, double seconds,
+                          const Context& context) {
   ExactSolution solution;
   solution.labels = start;
   context.check();
@@ -97,14 +139,20 @@ ExactSolution solve_exact(const SelectionProblem& p, const Labels& start, double
     solution.proven = true;
     return solution;
   }
+  const Limit limit{context, std::chrono::steady_clock::now() +
+                                 std::chrono::milliseconds(static_cast<long>(1e3 * std::min(seconds, 1e9)))};
   Program program;
   const Variables v = write_program(p, program);
   OsiClpSolverInterface clp;
   clp.messageHandler()->setLogLevel(0);
-  clp.loadProblem(program.rows, program.low.data(), program.high.data(), program.cost.data(),
+  clp.loadProblem(program.rows(), program.low.data(), program.high.data(), program.cost.data(),
                   program.row_low.data(), program.row_high.data());
   for (const int i : program.integer) clp.setInteger(i);
+  LimitedProgram limited_program(limit);
+  clp.getModelPtr()->passInEventHandler(&limited_program);
   CbcModel model(clp);
+  LimitedSearch limited_search(limit);
+  model.passInEventHandler(&limited_search);
   model.messageHandler()->setLogLevel(0);
   model.solver()->messageHandler()->setLogLevel(0);
   model.setLogLevel(0);
@@ -113,9 +161,11 @@ ExactSolution solve_exact(const SelectionProblem& p, const Labels& start, double
   const double upper = energy_of(p, start).total();
   model.setCutoff(upper + 1e-6);
   model.branchAndBound();
-  solution.bound = std::min(upper, model.getBestPossibleObjValue());
-  solution.proven = model.isProvenOptimal() || model.isProvenInfeasible();
-  if (solution.proven) solution.bound = std::min(upper, model.isProvenOptimal() ? model.getObjValue() : upper);
+  context.check();
+  solution.proven = !limit.reached() && (model.isProvenOptimal() || model.isProvenInfeasible());
+  solution.bound = !solution.proven ? lower_bound(p, upper, context)  // an interrupted program has none
+                   : model.isProvenOptimal() ? std::min(upper, model.getObjValue())
+                                             : upper;
   if (const double* x = model.bestSolution()) {
     Labels labels = start;
     for (int j = 0; j < p.patches(); ++j)

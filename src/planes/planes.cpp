@@ -119,6 +119,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     Stage stage(context, summary, "selection");
     const Selection selection = select_frames(patches, angles, space, options, context);
     record(selection, summary);
+    if (selection.time_limit) context.warn("the exact solver ran out of time: the best selection found is not proven");
     model = build_model(selection, patches, grid, cells, angles, space, context);
     refit(model);
     extend_parts(model, grid, cells, context);

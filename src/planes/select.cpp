@@ -3,6 +3,7 @@
 #include "planes/select.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <future>
 #include <numeric>
@@ -181,6 +182,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     }
     return s;
   }
+  const auto started = std::chrono::steady_clock::now();
   std::size_t done = 0;
   // Bounds only report: those of one round are sought while the next ones choose.
   const std::launch beside = context.threads == 1 ? std::launch::deferred : std::launch::async;
@@ -218,7 +220,8 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       labels = std::move(again);
     }
     if (options.solver == "exact") {
-      ExactSolution exact = solve_exact(problem, labels, options.time_limit, context);
+      const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - started;
+      ExactSolution exact = solve_exact(problem, labels, std::max(0.0, options.time_limit - spent.count()), context);
       labels = std::move(exact.labels);
       s.bound += exact.bound;
       s.time_limit = s.time_limit || !exact.proven;

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <thread>
 
 #include "planes/scenes.h"
 #include "planes/selection_problems.h"
+#include "unseen/core/error.h"
 #include "unseen/planes/synth.h"
 
 namespace unseen::planes {
@@ -48,6 +50,21 @@ TEST(SolveExact, FindsTheOptimumFromAPoorStart) {
     }
     EXPECT_NEAR(energy_of(p, exact.labels).total(), best, 1e-5);
   }
+}
+
+/// A problem that takes CBC minutes; without an ear for the stop, the search would last as long as its time limit.
+TEST(SolveExact, EndsWhenItIsStopped) {
+  const SelectionProblem p = test::random_problem(60, 12, 0.5, 0, 1);
+  std::stop_source stop;
+  Context context;
+  context.stop = stop.get_token();
+  std::jthread impatient([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    stop.request_stop();
+  });
+  Labels start;
+  for (int j = 0; j < p.patches(); ++j) start.push_back(p.frames() - p.patches() + j);
+  EXPECT_THROW(solve_exact(p, start, 60, context), Cancelled);
 }
 
 TEST(SolveLocal, IsWithinOnePercentOfCbcOnRandomProblems) {
