@@ -8,6 +8,7 @@
 #include "collision/shot_problem.h"
 #include "collision/solve_impacts.h"
 #include "collision/solve_turning.h"
+#include "collision/terms.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -91,6 +92,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
 }  // namespace
 
 Reconstruction reconstruct(const Shot& shot, const Options& options, Context& context) {
+  terms_of(options.physics, options.without);  // an unknown term is told before any work
   Reconstruction result;
   try {
     reconstruct_into(shot, options, context, result);
