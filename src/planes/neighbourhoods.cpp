@@ -95,12 +95,11 @@ Neighbourhood SampleTree::around(std::size_t probe, std::size_t points) const {
   return result;
 }
 
-std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& survey, std::size_t probes,
-                                          std::size_t points, const Context& context) {
+std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& survey, const SampleTree& tree,
+                                          std::size_t probes, std::size_t points, const Context& context) {
   constexpr double kAmple = 1.5, kFarthest = 8.0, kFinest = 1e-6;  // the last: of the extent
   const auto enclosing =
       static_cast<std::size_t>(std::max(3.0, kAmple * static_cast<double>(points) * survey.share));
-  const SampleTree tree(survey);
   std::vector<double> radii(std::min(probes, survey.sample.size()));
   parallel_blocks(context, radii.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

@@ -34,7 +34,7 @@ class SampleTree {
 
 /// Neighbourhoods, of at most `points` points each, of the first points of a survey's sample among all points
 /// of the source. One that is eight times as far from others as half of them are has none.
-std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& survey, std::size_t probes,
-                                          std::size_t points, const Context& context);
+std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& survey, const SampleTree& tree,
+                                          std::size_t probes, std::size_t points, const Context& context);
 
 }  // namespace unseen::planes

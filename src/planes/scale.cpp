@@ -57,11 +57,18 @@ std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::s
   return probes;
 }
 
+/// The same among all points of the source. Where even `most` of them are no flat disc, those of the sample
+/// tell.
 std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,
                                 std::size_t count, std::size_t most, const Context& context) {
+  const SampleTree tree(survey);
+  const std::vector<Neighbourhood> near = neighbourhoods(source, survey, tree, count, most, context);
   std::vector<Probe> probes;
-  for (const Neighbourhood& n : neighbourhoods(source, survey, count, most, context))
-    if (n.size() > 1) probes.push_back(probe(n, 0, space));
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (near[i].size() < 2) continue;
+    probes.push_back(probe(near[i], i, space));
+    if (!is_flat(probes.back().fit, space)) probes.back().fit = probe(tree.around(i, 4 * most), i, space).fit;
+  }
   return probes;
 }
 

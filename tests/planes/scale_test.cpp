@@ -72,6 +72,13 @@ TEST(ChooseScale, FollowsNoiseFarAboveTheSpacing) {
   EXPECT_LT(scale, 5.0 * 0.02);
 }
 
+/// As in many frames of a depth camera: thousands of points lie nearer than the noise is thick.
+TEST(ChooseScale, FollowsNoiseOfAVeryDenseCloud) {
+  const double scale = scale_of(plane_cloud(0.0014, 0.015));
+  EXPECT_GT(scale, 3.0 * 0.015);
+  EXPECT_LT(scale, 5.0 * 0.015);
+}
+
 TEST(ChooseScale, StrayPointsDoNotCount) {
   PointCloud cloud = plane_cloud(0.02, 0.002);
   const double without = scale_of(cloud);
