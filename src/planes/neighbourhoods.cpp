@@ -16,13 +16,13 @@ struct Gathering {
     Vec3 point;
   };
   Vec3 center;
-  double radius;  ///< m, beyond which no point counts
+  double squared_radius;  ///< m², beyond which no point counts
   std::size_t most;
   std::vector<Found> found;
 
   void add(const Vec3& p) {
     const double squared = (p - center).squaredNorm();
-    if (squared > radius * radius) return;
+    if (squared > squared_radius) return;
     found.push_back({squared, p});
     if (found.size() == 8 * most) keep_nearest();
   }
@@ -35,7 +35,7 @@ struct Gathering {
     found.erase(std::unique(found.begin(), found.end(), same), found.end());
     if (found.size() < most) return;
     found.resize(most);
-    radius = std::sqrt(found.back().squared);
+    squared_radius = found.back().squared;  // those just as far may still come
   }
 };
 
@@ -45,7 +45,7 @@ class Cover {
   Cover(const std::vector<Gathering>& gatherings, const Vec3& origin, double edge)
       : origin_(origin), edge_(edge) {
     for (std::size_t i = 0; i < gatherings.size(); ++i) {
-      const Vec3 reach = Vec3::Constant(gatherings[i].radius);
+      const Vec3 reach = Vec3::Constant(std::sqrt(gatherings[i].squared_radius));
       const VoxelKey low = key_of(gatherings[i].center - reach), high = key_of(gatherings[i].center + reach);
       VoxelKey k;
       for (k[0] = low[0]; k[0] <= high[0]; ++k[0])
@@ -108,7 +108,8 @@ std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& sur
   const double typical = std::max(median(radii), kFinest * survey.extent());
   std::vector<Gathering> gatherings;
   for (std::size_t i = 0; i < radii.size(); ++i)
-    gatherings.push_back({survey.sample[i], radii[i] <= kFarthest * typical ? radii[i] : 0.0, points, {}});
+    gatherings.push_back(
+        {survey.sample[i], radii[i] <= kFarthest * typical ? radii[i] * radii[i] : 0.0, points, {}});
   const Cover cover(gatherings, survey.low, 2.0 * typical);
   for_each_block(source, [&](const PointCloud& block, std::size_t) {
     context.check();

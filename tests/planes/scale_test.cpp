@@ -72,6 +72,21 @@ TEST(ChooseScale, FollowsNoiseFarAboveTheSpacing) {
   EXPECT_LT(scale, 5.0 * 0.02);
 }
 
+/// Points of a raster are many times just as far from each other.
+TEST(ChooseScale, DoesNotDependOnTheOrder) {
+  PointCloud cloud;
+  for (int x = 0; x < 1000; ++x)
+    for (int y = 0; y < 800; ++y)
+      cloud.positions.emplace_back(0.01 * x, 0.01 * y, 0.01 * ((x * 7 + y * 3) % 5));
+  const double scale = scale_of(cloud);
+  std::reverse(cloud.positions.begin(), cloud.positions.end());
+  EXPECT_EQ(scale_of(cloud), scale);
+  Random random(13);
+  for (std::size_t i = cloud.size(); i > 1; --i)
+    std::swap(cloud.positions[i - 1], cloud.positions[random.index(i)]);
+  EXPECT_EQ(scale_of(cloud), scale);
+}
+
 /// As in many frames of a depth camera: thousands of points lie nearer than the noise is thick.
 TEST(ChooseScale, FollowsNoiseOfAVeryDenseCloud) {
   const double scale = scale_of(plane_cloud(0.0014, 0.015));
