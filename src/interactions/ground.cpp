@@ -127,7 +127,7 @@ GroundStart find_ground(const Take& take, Context& context) {
   ground.camera_height = take.camera_height.value_or(floor.height * std::cos(ground.pitch) + kAnkleHeight);
   start.information = floor.information;
   if (!take.up && !feet.empty())  // the seated alone would look like the foreshortened
-    if (const auto tilted = tilted_floor(take, start)) start = *tilted;
+    if (const auto tilted = tilted_floor(take, start, context)) start = *tilted;
   if (std::abs(ground.pitch) < kSteepest && is_turned(take, ground.roll))
     context.warn(take.up ? "most people are not upright in the picture: \"up\" may be wrong" : "most people are not upright in the picture: if it is turned, say so by \"up\"");
   if (feet.empty() && !take.camera_height)

@@ -52,6 +52,18 @@ void weigh_stays(std::vector<Body>& bodies, int people, double fps) {
   for (auto& stay : stays) close(stay);
 }
 
+/// Of more bodies than a fit needs, every n-th, which stands for those left out.
+void thin(std::vector<Body>& bodies) {
+  constexpr std::size_t kEnough = 5000;
+  const std::size_t stride = (bodies.size() + kEnough - 1) / kEnough;
+  std::vector<Body> kept;
+  for (std::size_t i = 0; i < bodies.size(); i += stride) {
+    kept.push_back(bodies[i]);
+    kept.back().weight *= static_cast<double>(stride);
+  }
+  bodies = std::move(kept);
+}
+
 /// What is sought: log of the camera's height above ankles (m), its pitch (rad), log of each person's stature over the usual one.
 using Unknowns = Eigen::VectorXd;
 
@@ -75,7 +87,7 @@ struct Fit {
 };
 
 /// Levenberg–Marquardt with Cauchy weights.
-Fit fit(const std::vector<Body>& bodies, const Unknowns& start, const Unknowns& usual, const Unknowns& sd) {
+Fit fit(const std::vector<Body>& bodies, const Unknowns& start, const Unknowns& usual, const Unknowns& sd, const Context& context) {
   const auto evaluate = [&](const Unknowns& x, Eigen::MatrixXd* normal, Unknowns* gradient) {
     const Unknowns off = (x - usual).cwiseQuotient(sd);
     double cost = off.squaredNorm();
@@ -109,6 +121,7 @@ Fit fit(const std::vector<Body>& bodies, const Unknowns& start, const Unknowns& 
   Unknowns gradient;
   double damping = 1e-3;
   for (int round = 0; round < 50 && damping < 1e6; ++round) {
+    context.check();
     evaluate(best.x, &best.normal, &gradient);
     Eigen::MatrixXd damped = best.normal;
     damped.diagonal() *= 1 + damping;
@@ -130,12 +143,13 @@ Fit fit(const std::vector<Body>& bodies, const Unknowns& start, const Unknowns& 
 
 }  // namespace
 
-std::optional<GroundStart> tilted_floor(const Take& take, const GroundStart& start) {
+std::optional<GroundStart> tilted_floor(const Take& take, const GroundStart& start, const Context& context) {
   std::vector<Body> bodies;
   for (const Detection& detection : take.detections)
     if (const auto body = detection.person >= 0 ? body_of(detection, take.camera) : std::nullopt) bodies.push_back(*body);
   if (bodies.empty()) return std::nullopt;
   weigh_stays(bodies, take.people, take.fps);
+  thin(bodies);
 
   const Eigen::Index size = 2 + take.people;
   Unknowns usual = Unknowns::Zero(size), sd = Unknowns::Constant(size, kStatureSd);
@@ -144,13 +158,13 @@ std::optional<GroundStart> tilted_floor(const Take& take, const GroundStart& sta
   sd[0] = take.camera_height ? kKnownSd : kHeightSd / kUsualHeight;
   usual[1] = start.ground.pitch;
   sd[1] = kLevelSd;
-  const Fit level = fit(bodies, usual, usual, sd);
+  const Fit level = fit(bodies, usual, usual, sd, context);
   sd[1] = 10;  // any tilt
   Fit best;
   for (const double tilt : {start.ground.pitch, 0.35, 0.6, 0.9, 1.15}) {
     Unknowns from = usual;
     from[1] = tilt;
-    if (Fit tried = fit(bodies, from, usual, sd); tried.cost < best.cost) best = std::move(tried);
+    if (Fit tried = fit(bodies, from, usual, sd, context); tried.cost < best.cost) best = std::move(tried);
   }
   if (!(best.x[1] > kLeastTilt) || (start.ground.pitch < kLeastTilt && level.cost - best.cost < kSurely)) return std::nullopt;
   GroundStart found = start;

@@ -43,7 +43,7 @@ Input input_from_memory(std::string bytes, const std::string& name, const ReadOp
 std::unique_ptr<PointSource> open_file(const Input& input) {
   switch (decide_format(input.view(), input.name, input.extension)) {
     case Format::ply:
-      return is_drawn_mesh(input) ? open_mesh(input) : open_ply(input);
+      return input.options.label_field.empty() && is_drawn_mesh(input) ? open_mesh(input) : open_ply(input);
     case Format::pcd:
       return open_pcd(input);
     case Format::las:

@@ -56,6 +56,24 @@ struct Variables {
   std::vector<int> frame;
 };
 
+/// The cost of the pairs of chosen frames: at least that of one line, whichever the program picks.
+void write_irregularity_cost(const SelectionProblem& p, const std::vector<std::pair<int, double>>& pairs, double most, Program& program) {
+  if (pairs.empty() || p.lambda == 1.0) return;
+  const int cost = program.variable(1.0 - p.lambda, false);
+  program.high[cost] = most;
+  std::vector<std::pair<int, double>> one;
+  for (const Line& line : kIrregularityLines) {
+    // cost ≥ at_zero + slope·pairs − (at_zero + slope·most) (1 − picked)
+    const double top = line.at_zero + line.slope * most;
+    one.emplace_back(program.variable(0.0, true), 1.0);
+    std::vector<std::pair<int, double>> terms = {{cost, -1.0}, {one.back().first, top}};
+    for (const auto& [pair, irregularity] : pairs) terms.emplace_back(pair, line.slope * irregularity);
+    program.row(terms, -1e30, top - line.at_zero);
+    if (line.at_zero >= most) break;  // from here on no line can be the least
+  }
+  program.row(one, 1.0, 1.0);
+}
+
 Variables write_program(const SelectionProblem& p, Program& program) {
   constexpr double kFree = 1e30;
   Variables v;
@@ -75,13 +93,18 @@ Variables write_program(const SelectionProblem& p, Program& program) {
     }
     program.row(one, 1.0, 1.0);
   }
+  std::vector<std::pair<int, double>> pairs;  // their sum is what irregularity_cost takes
+  double most = 0;
   for (int a = 0; a < p.frames(); ++a)
     for (int b = 0; b < a; ++b) {
-      const double cost = (1.0 - p.lambda) * p.irregularity(a, b);
-      if (cost <= 0.0) continue;
-      const int both = program.variable(cost, false);
+      const double irregularity = p.irregularity(a, b);
+      if (irregularity <= 0.0) continue;
+      const int both = program.variable(0.0, false);
       program.row({{v.frame[a], 1.0}, {v.frame[b], 1.0}, {both, -1.0}}, -kFree, 1.0);
+      pairs.emplace_back(both, irregularity);
+      most += irregularity;
     }
+  write_irregularity_cost(p, pairs, most, program);
   for (const auto& [a, b] : p.neighbours) {
     if (p.smoothness() <= 0.0) break;
     const int differ = program.variable(p.smoothness(), false);

@@ -8,9 +8,7 @@
 namespace unseen::planes {
 
 double FrameSearch::total(const std::vector<int>& open, const Labels& labels) const {
-  double sum = 0;
-  for (std::size_t a = 0; a < open.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) sum += irregularity_(open[a], open[b]);
+  double sum = p_.of_pairs(pairs_of(open));
   for (int j = 0; j < p_.patches(); ++j) sum += cost_(j, labels[j]);
   for (const auto& [a, b] : p_.neighbours) sum += differs(a, labels[a], b, labels[b]);
   return sum;

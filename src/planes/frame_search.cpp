@@ -20,7 +20,6 @@ FrameSearch::FrameSearch(const SelectionProblem& problem, const Context& context
       context_(context),
       offers_(offers_of(problem)),
       cost_((problem.lambda * problem.data).cwiseMin(kImpossible)),
-      irregularity_((1.0 - problem.lambda) * problem.irregularity),
       near_(problem.patches()) {
   for (const auto& [a, b] : p_.neighbours) {
     near_[a].push_back(b);
@@ -40,6 +39,7 @@ std::vector<int> FrameSearch::open_frames(std::vector<int> open) const {
     context_.check();
     const Best now = best_of(open);
     const std::vector<double> opening = openings(open);
+    const double pairs = pairs_of(open);
     double best = -1e-8;
     int add = -1, drop = -1;
     const std::vector<std::pair<double, int>> additions = ranked_additions(open, now, opening);
@@ -50,19 +50,20 @@ std::vector<int> FrameSearch::open_frames(std::vector<int> open) const {
     for (const int o : open) {
       if (p_.fixed[o] || open.size() == 1) continue;
       std::vector<double> left = now.cost;
-      double without = -opening[o];  // irregularity(o, o) is zero
+      const double left_pairs = pairs - opening[o];  // irregularity(o, o) is zero
+      double without = -p_.of_pairs(pairs);
       for (const Offer& offer : offers_[o])
         if (now.frame[offer.patch] == o) {
           left[offer.patch] = now.second[offer.patch];
           without += now.second[offer.patch] - now.cost[offer.patch];
         }
-      if (without < best) {
-        best = without;
+      if (const double change = without + p_.of_pairs(left_pairs); change < best) {
+        best = change;
         add = -1;
         drop = o;
       }
       for (const auto& [gain, k] : additions) {
-        const double change = without + opening[k] - irregularity_(o, k) - saved(k, left);
+        const double change = without + p_.of_pairs(left_pairs + opening[k] - p_.irregularity(o, k)) - saved(k, left);
         if (change < best) {
           best = change;
           add = k;
@@ -80,8 +81,7 @@ FrameSearch::State FrameSearch::evaluate(const std::vector<int>& open, double up
   State s;
   Best now = best_of(open);
   double bound = std::accumulate(now.cost.begin(), now.cost.end(), 0.0);
-  for (std::size_t a = 0; a < open.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) bound += irregularity_(open[a], open[b]);
+  bound += p_.of_pairs(pairs_of(open));
   if (bound >= upper) return s;
   s.labels = std::move(now.frame);
   relax(open, s.labels);
@@ -178,10 +178,17 @@ FrameSearch::Best FrameSearch::best_of(const std::vector<int>& open) const {
   return best;
 }
 
+double FrameSearch::pairs_of(const std::vector<int>& open) const {
+  double sum = 0;
+  for (std::size_t a = 0; a < open.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) sum += p_.irregularity(open[a], open[b]);
+  return sum;
+}
+
 std::vector<double> FrameSearch::openings(const std::vector<int>& open) const {
   std::vector<double> sum(p_.frames(), 0.0);
   for (const int o : open)
-    for (int k = 0; k < p_.frames(); ++k) sum[k] += irregularity_(k, o);
+    for (int k = 0; k < p_.frames(); ++k) sum[k] += p_.irregularity(k, o);
   return sum;
 }
 
@@ -196,8 +203,9 @@ std::vector<std::pair<double, int>> FrameSearch::ranked_additions(const std::vec
   std::vector<char> is_open(p_.frames(), 0);
   for (const int k : open) is_open[k] = 1;
   std::vector<std::pair<double, int>> ranked;
+  const double pairs = pairs_of(open), before = p_.of_pairs(pairs);
   for (int k = 0; k < p_.frames(); ++k)
-    if (!is_open[k]) ranked.emplace_back(opening[k] - saved(k, now.cost), k);
+    if (!is_open[k]) ranked.emplace_back(p_.of_pairs(pairs + opening[k]) - before - saved(k, now.cost), k);
   const auto middle = ranked.begin() + static_cast<std::ptrdiff_t>(std::min(kSwaps, ranked.size()));
   std::partial_sort(ranked.begin(), middle, ranked.end());
   ranked.erase(middle, ranked.end());

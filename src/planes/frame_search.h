@@ -49,7 +49,10 @@ class FrameSearch {
   };
   Best best_of(const std::vector<int>& open) const;
 
-  /// Irregularity that opening each frame adds beside the open ones.
+  /// Sum of the irregularities of pairs of frames.
+  double pairs_of(const std::vector<int>& open) const;
+
+  /// Irregularities of each frame with the open ones, summed.
   std::vector<double> openings(const std::vector<int>& open) const;
 
   /// Data cost that a frame takes off what patches pay now.
@@ -74,7 +77,6 @@ class FrameSearch {
   const Context& context_;
   const Offers offers_;
   const Eigen::MatrixXd cost_;          ///< λ·D, patches × frames, with a large number for infinite
-  const Eigen::MatrixXd irregularity_;  ///< (1−λ)·Irr
   std::vector<std::vector<int>> near_;
 };
 

@@ -22,6 +22,12 @@ Offers offers_of(const SelectionProblem& problem) {
   return offers;
 }
 
+double irregularity_cost(double pairs) {
+  double least = pairs;
+  for (const Line& line : kIrregularityLines) least = std::min(least, line.at_zero + line.slope * pairs);
+  return least;
+}
+
 Energy energy_of(const SelectionProblem& problem, const Labels& labels) {
   Energy e;
   std::vector<char> open = problem.fixed;
@@ -29,9 +35,11 @@ Energy energy_of(const SelectionProblem& problem, const Labels& labels) {
     e.data += problem.lambda * problem.data(j, labels[j]);
     open[labels[j]] = 1;
   }
+  double pairs = 0;
   for (int a = 0; a < problem.frames(); ++a)
     for (int b = 0; b < a; ++b)
-      if (open[a] && open[b]) e.irregularity += (1.0 - problem.lambda) * problem.irregularity(a, b);
+      if (open[a] && open[b]) pairs += problem.irregularity(a, b);
+  e.irregularity = problem.of_pairs(pairs);
   for (const auto& [a, b] : problem.neighbours)
     if (problem.orientation(a, labels[a]) != problem.orientation(b, labels[b])) e.smoothness += problem.smoothness();
   return e;

@@ -15,7 +15,7 @@ constexpr std::size_t kWork = 8'000'000;  // candidates looked at, over all node
 /// A subproblem: the first `decided` frames of the branching order are open or closed.
 struct Node {
   double bound = 0;
-  double data = 0, irregularity = 0;  // the least with all frames that are not closed; of those that are open
+  double data = 0, pairs = 0;  // the least with all frames that are not closed; irregularities of those that are open
   std::size_t decided = 0;
   std::vector<char> state;  // per frame: 0 undecided, 1 open, 2 closed
   bool operator<(const Node& o) const { return bound > o.bound; }  // smallest bound on top
@@ -33,7 +33,7 @@ double least_data(const SelectionProblem& p, const Offers& offers, const std::ve
 double irregularity_with(const SelectionProblem& p, int frame, const std::vector<char>& state) {
   double sum = 0;
   for (int k = 0; k < p.frames(); ++k)
-    if (state[k] == 1) sum += (1.0 - p.lambda) * p.irregularity(k, frame);
+    if (state[k] == 1) sum += p.irregularity(k, frame);
   return sum;
 }
 
@@ -64,7 +64,7 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
   root.state.assign(p.frames(), 0);
   for (int k = 0; k < p.frames(); ++k) {
     if (p.fixed[k]) {
-      root.irregularity += irregularity_with(p, k, root.state);
+      root.pairs += irregularity_with(p, k, root.state);
       root.state[k] = 1;
     } else {
       order.push_back(k);
@@ -72,7 +72,7 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight[a] > weight[b]; });
   root.data = least_data(p, offers, root.state);
-  root.bound = root.data + root.irregularity;
+  root.bound = root.data + p.of_pairs(root.pairs);
   std::priority_queue<Node> open;
   open.push(root);
   const std::size_t nodes = kWork / (1 + static_cast<std::size_t>(p.patches()) * p.frames());
@@ -86,11 +86,11 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
       const int frame = order[child.decided++];
       child.state[frame] = state;
       if (state == 1) {
-        child.irregularity += irregularity_with(p, frame, node.state);
+        child.pairs += irregularity_with(p, frame, node.state);
       } else {
         child.data = least_data(p, offers, child.state);
       }
-      child.bound = std::max(node.bound, child.data + child.irregularity);
+      child.bound = std::max(node.bound, child.data + p.of_pairs(child.pairs));
       if (child.bound < upper) open.push(std::move(child));
     }
   }

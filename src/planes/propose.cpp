@@ -12,6 +12,7 @@ constexpr double kCluster = 0.3 * kPi / 180.0;   // normals this close are one d
 constexpr double kClosing = 5.0 * kPi / 180.0;   // pairs this far from an angle of Θ close no frame
 constexpr std::size_t kDirections = 200, kAnchors = 30, kFrames = 300;
 constexpr double kWorth = 2.0;  // a patch that a frame leaves unexplained counts no more than this
+constexpr double kLeastGain = 0.1;  // … and a frame must explain that much more than those before it
 
 struct Direction {
   Vec3 normal;
@@ -43,6 +44,55 @@ bool same(const OrientationFrame& a, const OrientationFrame& b) {
   return (cosines.rowwise().maxCoeff().array() >= least).all();
 }
 
+/// Frames that explain patches: first each that explains most of what those before it leave unexplained, so that a
+/// majority does not crowd out the rest, then those that explain most.
+std::vector<OrientationFrame> most_telling(const std::vector<OrientationFrame>& frames, const Patches& patches,
+                                           const std::vector<int>& members, const std::vector<Vec3>& locals,
+                                           double patch_angle, const Context& context) {
+  std::vector<std::vector<Offer>> offers(frames.size());
+  std::vector<double> unexplained(patches.patches.size(), kWorth);
+  const auto worth = [&](std::size_t k) {
+    double sum = 0;
+    for (const Offer& o : offers[k]) sum += std::max(0.0, unexplained[o.patch] - o.cost);
+    return sum;
+  };
+  std::vector<std::pair<double, std::size_t>> ranked(frames.size());
+  parallel_blocks(context, frames.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      for (const int j : members)
+        if (const double cost = best_candidate(patches.patches[j], frames[k], locals, patch_angle).cost; cost < kWorth)
+          offers[k].push_back({j, cost});
+      ranked[k] = {worth(k), k};
+    }
+  });
+  const auto better = [](const auto& a, const auto& b) { return a.first < b.first || (a.first == b.first && a.second > b.second); };
+  std::vector<OrientationFrame> chosen;
+  const auto choose = [&](std::size_t k) {
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const OrientationFrame& f) { return same(f, frames[k]); }))
+      chosen.push_back(frames[k]);
+  };
+  // What a frame adds only shrinks, so one whose stale worth is not the largest need not be looked at.
+  std::vector<std::pair<double, std::size_t>> queue = ranked;
+  std::make_heap(queue.begin(), queue.end(), better);
+  while (!queue.empty() && chosen.size() < kFrames) {
+    std::pop_heap(queue.begin(), queue.end(), better);
+    const std::size_t k = queue.back().second;
+    queue.back().first = worth(k);
+    if (queue.back().first < kLeastGain) {
+      queue.pop_back();
+    } else if (queue.size() > 1 && better(queue.back(), queue.front())) {
+      std::push_heap(queue.begin(), queue.end(), better);
+    } else {
+      queue.pop_back();
+      choose(k);
+      for (const Offer& o : offers[k]) unexplained[o.patch] = std::min(unexplained[o.patch], o.cost);
+    }
+  }
+  std::sort(ranked.begin(), ranked.end(), [&](const auto& a, const auto& b) { return better(b, a); });
+  for (std::size_t i = 0; i < ranked.size() && chosen.size() < kFrames; ++i) choose(ranked[i].second);
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::vector<int>& members,
@@ -60,34 +110,23 @@ std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::
   for (std::size_t i = 0; i < std::min(directions.size(), kAnchors); ++i) anchors.push_back(directions[i].normal);
 
   std::vector<OrientationFrame> closed;
+  const auto close = [&](const Vec3& a, const Vec3& b) {
+    const double angle = line_angle(a, b);
+    if (angle < kClosing || angles.deviation(angle) > kClosing) return;
+    OrientationFrame frame = close_frame(a, b, space);
+    if (std::none_of(closed.end() - std::min<std::ptrdiff_t>(64, closed.size()), closed.end(),
+                     [&](const OrientationFrame& f) { return same(f, frame); }))
+      closed.push_back(std::move(frame));
+  };
   for (const Direction& d : directions)
-    for (const Vec3& anchor : anchors) {
-      const double angle = line_angle(anchor, d.normal);
-      if (angle < kClosing || angles.deviation(angle) > kClosing) continue;
-      OrientationFrame frame = close_frame(anchor, d.normal, space);
-      if (std::none_of(closed.end() - std::min<std::ptrdiff_t>(64, closed.size()), closed.end(),
-                       [&](const OrientationFrame& f) { return same(f, frame); }))
-        closed.push_back(std::move(frame));
-    }
+    for (const Vec3& anchor : anchors) close(anchor, d.normal);
+  std::vector<char> generates(patches.patches.size(), 0);
+  for (const int j : members) generates[j] = 1;
+  for (const auto& [a, b] : patches.adjoining)
+    if (generates[a] || generates[b]) close(patches.patches[a].fit.normal, patches.patches[b].fit.normal);
 
-  // The closed frames that explain the most patches.
-  const std::vector<Vec3> locals = local_directions(angles, space);
-  std::vector<std::pair<double, std::size_t>> ranked(closed.size());
-  parallel_blocks(context, closed.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      double worth = 0;
-      for (const int j : members)
-        worth += std::max(0.0, kWorth - best_candidate(patches.patches[j], closed[k], locals, patch_angle).cost);
-      ranked[k] = {-worth, k};
-    }
-  });
-  std::stable_sort(ranked.begin(), ranked.end());
-  for (const auto& [worth, k] : ranked) {
-    if (frames.size() >= directions.size() + kFrames) break;
-    if (std::none_of(frames.begin() + static_cast<std::ptrdiff_t>(directions.size()), frames.end(),
-                     [&, k = k](const OrientationFrame& f) { return same(f, closed[k]); }))
-      frames.push_back(closed[k]);
-  }
+  const std::vector<OrientationFrame> chosen = most_telling(closed, patches, members, local_directions(angles, space), patch_angle, context);
+  frames.insert(frames.end(), chosen.begin(), chosen.end());
   return frames;
 }
 

@@ -15,6 +15,7 @@ constexpr double kTypical = 3.0;  // … or, of many patches, what each may lose
 constexpr double kNear = 3.0 * kPi / 180.0;      // relations that fail by more are not considered
 constexpr double kWithin = 15.0 * kPi / 180.0;   // a patch never turns farther than this
 constexpr std::size_t kEarlier = 40;             // only the heaviest frames constrain others
+constexpr double kByChance = 0.05;  // relations as good that random directions may be expected to have by chance
 
 struct Member {
   int patch, local;
@@ -77,6 +78,7 @@ OrientationFrame fit_constrained(const Problem& p, OrientationFrame frame, const
 struct Hypothesis {
   std::vector<Constraint> rows;  // one, or two for parallel directions
   double deviation;
+  double chance;  // that two random directions come as near to the angle
 };
 
 /// Directions of a frame that planes have, and its axes.
@@ -105,7 +107,7 @@ std::vector<Hypothesis> hypotheses(const Problem& p, const OrientationFrame& fra
         if (theta > kPi / 2 + 1e-9) continue;
         const double deviation = std::abs(angle - theta);
         if (deviation > kNear) continue;
-        Hypothesis h{{}, deviation};
+        Hypothesis h{{}, deviation, theta == 0.0 ? 1 - std::cos(deviation) : std::sin(deviation)};
         if (theta == 0.0) {
           const Vec3 first = any_orthogonal(v);
           h.rows = {{index, earlier, u, first, 0.0}, {index, earlier, u, v.cross(first), 0.0}};
@@ -198,10 +200,12 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
     const double free = chi2(p, group.frame, group.members);
     std::vector<Constraint> rows;
     const std::size_t most = space.is_2d() ? 0 : group.frame.closed ? 3 : 2;  // turns that are left to fix
+    double tests = 0;
     for (std::size_t e = 0; e < std::min(nodes.size(), kEarlier) && rows.size() < most; ++e) {
       const std::vector<Vec3> others = telling_directions(p, nodes[e].frame, nodes[e].members);
+      tests += static_cast<double>(own.size() * others.size());
       for (const Hypothesis& h : hypotheses(p, group.frame, own, index, static_cast<int>(e), nodes[e].frame, others)) {
-        if (rows.size() + h.rows.size() > most) continue;
+        if (rows.size() + h.rows.size() > most || tests * h.chance > kByChance) continue;
         std::vector<Constraint> more = rows;
         more.insert(more.end(), h.rows.begin(), h.rows.end());
         if (!independent(more, group.frame, result.frames)) continue;

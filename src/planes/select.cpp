@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kFirstRound = 80;  // patches that are selected at once, at least
 constexpr double kExplained = 0.05;       // data cost below which a patch asks for no new frame
 constexpr double kSameOrientation = 0.5 * kPi / 180.0;
+constexpr double kIndistinct = 9.0;  // χ²: three standard errors
+constexpr double kDominant = 1.0 / 3;  // of the area
 
 /// Patches of each round, the largest first: the area threshold is halved until none is left.
 std::vector<std::vector<int>> rounds_by_area(const Patches& patches) {
@@ -41,9 +43,10 @@ Energy keep_local_fits(const Patches& patches, const AngleSet& angles, const Spa
   std::vector<OrientationFrame> frames;
   for (const Patch& p : patches.patches) frames.push_back(open_frame(p.fit.normal, space));
   Energy e;
+  double pairs = 0;
   for (std::size_t a = 0; a < frames.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b)
-      e.irregularity += (1.0 - lambda) * irregularity(frames[a], frames[b], locals, angles);
+    for (std::size_t b = 0; b < a; ++b) pairs += irregularity(frames[a], frames[b], locals, angles);
+  e.irregularity = (1.0 - lambda) * irregularity_cost(pairs);
   for (const auto& [a, b] : patches.neighbours)
     if (line_angle(patches.patches[a].fit.normal, patches.patches[b].fit.normal) > kSameOrientation)
       e.smoothness += (1.0 - lambda) / 10.0;
@@ -68,28 +71,74 @@ std::vector<OrientationFrame> refit_used(const Patches& patches, const std::vect
   return refitted;
 }
 
-/// Where several frames offer a patch the same orientation (frames that share the up direction), the one with
-/// the most area of its own takes it: a room keeps its floor when a table shares it.
-void give_shared_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, Selection& s) {
+/// The frame of these that suits the most area, fitted to it, if that is a good part of all.
+std::optional<OrientationFrame> dominant_frame(const Patches& patches, const std::vector<OrientationFrame>& frames, const std::vector<Vec3>& locals,
+                                               double patch_angle) {
+  double all = 0, most = 0;
+  for (const Patch& patch : patches.patches) all += patch.area;
+  const auto suited = [&](const OrientationFrame& frame) {
+    std::vector<std::pair<const Patch*, int>> list;
+    for (const Patch& patch : patches.patches) {
+      const Candidate c = best_candidate(patch, frame, locals, patch_angle);
+      if (c.local >= 0 && tilt_chi2(patch, frame.direction(locals[c.local])) < kIndistinct) list.emplace_back(&patch, c.local);
+    }
+    return list;
+  };
+  std::optional<OrientationFrame> best;
+  for (OrientationFrame frame : frames) {
+    if (!frame.closed) continue;
+    double area = 0;
+    for (const auto& [patch, local] : suited(frame)) area += patch->area;
+    if (area > most) {
+      most = area;
+      best = frame;
+    }
+  }
+  if (most < kDominant * all) return std::nullopt;
+  for (int i = 0; i < 3; ++i) best = refit_frame(*best, locals, suited(*best));
+  return best;
+}
+
+/// Where several frames offer a patch an orientation from which its own does not differ, the one that can have the most area takes it,
+/// then the one that can have most of what is left: a room keeps its floor when a table shares it, and walls stay together.
+void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, Selection& s) {
   const std::size_t n = patches.patches.size();
-  std::vector<std::vector<std::pair<int, int>>> offers(n);  // frame, local
-  std::vector<double> own(s.frames.size(), 0.0);
+  struct Offered {
+    std::size_t patch;
+    int local;
+  };
+  std::vector<std::vector<Offered>> offers(s.frames.size());
   for (std::size_t j = 0; j < n; ++j) {
     const Patch& patch = patches.patches[j];
     const Vec3 has = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
     for (std::size_t k = 0; k < s.frames.size(); ++k) {
       const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
-      if (c.local >= 0 && line_angle(s.frames[k].direction(locals[c.local]), has) < kSameOrientation)
-        offers[j].emplace_back(static_cast<int>(k), c.local);
+      if (c.local < 0) continue;
+      const Vec3 offered = s.frames[k].direction(locals[c.local]);
+      if (line_angle(offered, has) < kSameOrientation || tilt_chi2(patch, offered) < kIndistinct) offers[k].push_back({j, c.local});
     }
-    if (offers[j].size() == 1) own[s.frame_of_patch[j]] += patch.area;
   }
-  for (std::size_t j = 0; j < n; ++j)
-    for (const auto& [k, local] : offers[j])
-      if (own[k] > own[s.frame_of_patch[j]]) {
-        s.frame_of_patch[j] = k;
-        s.local_of_patch[j] = local;
+  std::vector<char> given(n, 0);
+  for (std::size_t round = 0; round < s.frames.size(); ++round) {
+    std::size_t largest = 0;
+    double most = 0;
+    for (std::size_t k = 0; k < s.frames.size(); ++k) {
+      double area = 0;
+      for (const Offered& o : offers[k])
+        if (!given[o.patch]) area += patches.patches[o.patch].area;
+      if (area > most) {
+        most = area;
+        largest = k;
       }
+    }
+    if (most == 0) break;
+    for (const Offered& o : offers[largest]) {
+      if (given[o.patch]) continue;
+      given[o.patch] = 1;
+      s.frame_of_patch[o.patch] = static_cast<int>(largest);
+      s.local_of_patch[o.patch] = o.local;
+    }
+  }
 }
 
 }  // namespace
@@ -184,6 +233,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
   }
   const auto started = std::chrono::steady_clock::now();
   std::size_t done = 0;
+  std::vector<OrientationFrame> first;
   // Bounds only report: those of one round are sought while the next ones choose.
   const std::launch beside = context.threads == 1 ? std::launch::deferred : std::launch::async;
   std::vector<std::future<double>> bounds;
@@ -201,6 +251,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     std::vector<OrientationFrame> frames = s.frames;
     for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle, context))
       frames.push_back(std::move(f));
+    if (first.empty()) first = frames;
     SelectionProblem problem;
     const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
       return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem, context);
@@ -228,9 +279,10 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     }
     // What fixed frames cost among themselves was counted in the rounds that chose them.
     const Energy e = energy_of(problem, labels);
-    double among_fixed = 0;
+    double pairs = 0;
     for (std::size_t a = 0; a < fixed; ++a)
-      for (std::size_t b = 0; b < a; ++b) among_fixed += (1.0 - lambda) * problem.irregularity(a, b);
+      for (std::size_t b = 0; b < a; ++b) pairs += problem.irregularity(a, b);
+    const double among_fixed = problem.of_pairs(pairs);
     s.after.data += e.data;
     s.after.irregularity += e.irregularity - among_fixed;
     s.after.smoothness += e.smoothness;
@@ -252,7 +304,8 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       s.local_of_patch[round[i]] = best_candidate(patches.patches[round[i]], s.frames[to], locals, patch_angle).local;
     }
   }
-  give_shared_to_largest(patches, locals, patch_angle, s);
+  if (const auto dominant = dominant_frame(patches, first, locals, patch_angle)) s.frames.push_back(*dominant);
+  give_to_largest(patches, locals, patch_angle, s);
   for (std::future<double>& bound : bounds) s.bound += bound.get();
   return s;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -10,9 +11,17 @@
 
 namespace unseen::planes {
 
+/// What the pairs of chosen frames cost that have the sum of irregularities `pairs`: that sum, but where frames are many less, so
+/// that the cost grows with the frames and not with their pairs. Concave, the least of kIrregularitySlopes straight lines.
+double irregularity_cost(double pairs);
+struct Line {
+  double at_zero, slope;
+};
+inline constexpr std::array<Line, 5> kIrregularityLines = {{{0, 1}, {4, 1.0 / 2}, {12, 1.0 / 4}, {28, 1.0 / 8}, {60, 1.0 / 16}}};
+
 /// Choice of frames and of one candidate a patch, as numbers: minimise (thesis Eq. 3.4, with Eq. 3.3 linear)
-///   λ Σ_j data(j, k_j) + (1−λ) Σ_{i<k chosen} irregularity(i,k) + C · #{neighbours with other orientations}
-/// where a frame is chosen if a patch has it, or if it is fixed (chosen in a coarser round).
+///   λ Σ_j data(j, k_j) + (1−λ) h(Σ_{i<k chosen} irregularity(i,k)) + C · #{neighbours with other orientations}
+/// where a frame is chosen if a patch has it, or if it is fixed (chosen in a coarser round); h is irregularity_cost.
 struct SelectionProblem {
   double lambda = 0.5;
   Eigen::MatrixXd data;            ///< patches × frames; infinite where a frame has no candidate
@@ -23,6 +32,7 @@ struct SelectionProblem {
 
   int patches() const { return static_cast<int>(data.rows()); }
   int frames() const { return static_cast<int>(data.cols()); }
+  double of_pairs(double sum) const { return (1.0 - lambda) * irregularity_cost(sum); }
   double smoothness() const { return (1.0 - lambda) / 10.0; }  ///< C
 };
 

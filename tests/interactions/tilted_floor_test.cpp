@@ -48,7 +48,7 @@ TEST(TiltedFloor, IsExactForUprightBodies) {
       take.detections.push_back(upright(view, {random.uniform(-1, 1), away + random.uniform(-1, 1.5)}, i % 2 ? 1.04 : 0.96, i, i % 2));
     GroundStart start;
     start.ground = ground_at(10, 1.5);
-    const auto found = tilted_floor(take, start);
+    const auto found = tilted_floor(take, start, Context());
     ASSERT_TRUE(found);
     EXPECT_NEAR(degrees(found->ground.pitch), degrees(truth.pitch), 0.5);
     EXPECT_NEAR(found->ground.camera_height, truth.camera_height, 0.03 * truth.camera_height);
@@ -61,7 +61,7 @@ TEST(TiltedFloor, IsExactForUprightBodies) {
 TEST(TiltedFloor, NobodyTellsNothing) {
   Take take;
   take.camera = kCamera;
-  EXPECT_FALSE(tilted_floor(take, {}));
+  EXPECT_FALSE(tilted_floor(take, {}, Context()));
 }
 
 /// What people do in the truth, filmed by another camera that aims at the middle of their paths.

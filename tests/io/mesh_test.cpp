@@ -102,13 +102,15 @@ TEST(Mesh, PlyWithFacesIsSampledIfItWasDrawn) {
   const auto ply = [](int vertices) {
     std::string s =
         "ply\nformat ascii 1.0\nelement vertex " + std::to_string(vertices) +
-        "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
+        "\nproperty float x\nproperty float y\nproperty float z\nproperty int kind\nelement face 1\nproperty list uchar int "
         "vertex_indices\nend_header\n";
-    for (int i = 0; i < vertices; ++i) s += std::to_string(i % 2) + " " + std::to_string(i / 2) + " 0\n";
+    for (int i = 0; i < vertices; ++i) s += std::to_string(i % 2) + " " + std::to_string(i / 2) + " 0 7\n";
     return s + "3 0 1 2\n";
   };
   EXPECT_EQ(read(ply(4), "a.ply", options).size(), 100u);
   EXPECT_EQ(read(ply(5000), "a.ply", options).size(), 5000u);
+  options.label_field = "kind";  // asks for the vertices
+  EXPECT_EQ(read(ply(4), "a.ply", options).labels, (std::vector<std::int32_t>(4, 7)));
 }
 
 TEST(Mesh, FaultsNameFileAndField) {

@@ -56,8 +56,11 @@ inline double energy_by_definition(const SelectionProblem& p, const Labels& labe
     if (is_chosen) chosen.push_back(k);
   }
   for (std::size_t j = 0; j < labels.size(); ++j) sum += p.lambda * p.data(static_cast<int>(j), labels[j]);
+  double pairs = 0;
   for (const int a : chosen)
-    for (const int b : chosen) sum += 0.5 * (1 - p.lambda) * p.irregularity(a, b);
+    for (const int b : chosen) pairs += 0.5 * p.irregularity(a, b);
+  const double cost = std::min({pairs, 4 + pairs / 2, 12 + pairs / 4, 28 + pairs / 8, 60 + pairs / 16});
+  sum += (1 - p.lambda) * cost;
   for (const auto& [a, b] : p.neighbours)
     sum += (1 - p.lambda) / 10 * (p.orientation(a, labels[a]) != p.orientation(b, labels[b]));
   return sum;
