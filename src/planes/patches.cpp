@@ -118,16 +118,18 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
   patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u, least_noise);
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v, least_noise);
-  const auto doubt = [&](double variance, double spread) {
-    const double width = std::max(spread, 1e-300);
-    const double scale = 2.0 * grid.edge;
-    const double noise = std::max(variance, fit.rms * fit.rms / (kMostPoints * width * width));
-    const double systematic = kSystematicTilt * kSystematicTilt + std::pow(kScaleShare * scale / width, 2);
+  const double scale = 2.0 * grid.edge;
+  const auto systematic = [&](double width) {
+    const double tilt = kSystematicTilt * kSystematicTilt + std::pow(kScaleShare * scale / width, 2);
     // No doubt excuses a tilt that carries the patch's points out of the plane's tolerance.
-    return noise + std::min(systematic, std::pow(kLargestShift * scale / width, 2));
+    return std::min(tilt, std::pow(kLargestShift * scale / width, 2));
   };
-  patch.doubt_u = doubt(patch.variance_u, fit.spread_u);
-  patch.doubt_v = doubt(patch.variance_v, fit.spread_v);
+  const auto noise = [&](double variance, double width) { return std::max(variance, fit.rms * fit.rms / (kMostPoints * width * width)); };
+  const double width_u = std::max(fit.spread_u, 1e-300), width_v = std::max(fit.spread_v, 1e-300);
+  patch.systematic_u = systematic(width_u);
+  patch.systematic_v = space.is_2d() ? 0.0 : systematic(width_v);
+  patch.doubt_u = noise(patch.variance_u, width_u) + patch.systematic_u;
+  patch.doubt_v = noise(patch.variance_v, width_v) + patch.systematic_v;
   return patch;
 }
 

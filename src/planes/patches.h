@@ -19,6 +19,8 @@ struct Patch {
   double variance_v = 0;  ///< the same along v
   double doubt_u = 0;     ///< rad², of that tilt when patches are compared: more than noise is at work in scans
   double doubt_v = 0;     ///< the same along v
+  double systematic_u = 0;  ///< the part of doubt_u that no noise model contains
+  double systematic_v = 0;  ///< the same along v
 };
 
 struct Patches {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/doubt.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unseen::planes {
+namespace {
+
+constexpr std::size_t kEnough = 12;      // tilts
+constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
+constexpr double kMedianOfSquare = 0.455;  // of a normal variable of variance 1
+constexpr double kSafety = 1.5, kLeast = 0.1;
+
+}  // namespace
+
+double shown_doubt(const Patches& patches, const Selection& s, const std::vector<Vec3>& locals) {
+  std::vector<double> area(s.frames.size(), 0.0);
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) area[s.frame_of_patch[j]] += patches.patches[j].area;
+  const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
+  std::vector<std::pair<const Patch*, int>> members;
+  for (std::size_t j = 0; j < patches.patches.size(); ++j)
+    if (s.frame_of_patch[j] == largest) members.emplace_back(&patches.patches[j], s.local_of_patch[j]);
+  const OrientationFrame frame = refit_frame(s.frames[largest], locals, members);
+  std::vector<double> squares;  // of tilts, over the systematic doubt
+  for (const auto& [patch, local] : members) {
+    const Vec3 n = frame.direction(locals[local]);
+    const double across = std::abs(n.dot(patch->fit.normal));
+    const auto add = [&](const Vec3& axis, double doubt, double systematic) {
+      if (systematic > 0 && doubt - systematic < kPrecise * systematic) squares.push_back(std::pow(n.dot(axis) / across, 2) / systematic);
+    };
+    add(patch->fit.u, patch->doubt_u, patch->systematic_u);
+    add(patch->fit.v, patch->doubt_v, patch->systematic_v);
+  }
+  if (squares.size() < kEnough) return 1.0;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return std::clamp(kSafety * std::sqrt(*middle / kMedianOfSquare), kLeast, 1.0);
+}
+
+void reduce_doubt(Patches& patches, double share) {
+  const double less = 1 - share * share;
+  for (Patch& patch : patches.patches) {
+    patch.doubt_u -= less * patch.systematic_u;
+    patch.doubt_v -= less * patch.systematic_v;
+    patch.systematic_u *= share * share;
+    patch.systematic_v *= share * share;
+  }
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "planes/select.h"
+
+namespace unseen::planes {
+
+/// How much of the systematic doubt (`Patch::systematic_u`, `_v`) a scene shows, as standard deviations, from 0.1 to 1: from how
+/// far the patches of the frame that has most area are off it. 1 where too few of them are fitted well enough to tell.
+double shown_doubt(const Patches& patches, const Selection& selection, const std::vector<Vec3>& locals);
+
+/// Leaves this share of the systematic doubt of every patch.
+void reduce_doubt(Patches& patches, double share);
+
+}  // namespace unseen::planes
