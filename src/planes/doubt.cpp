@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kEnough = 12;      // tilts
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
-constexpr double kMedianOfSquare = 0.455;  // of a normal variable of variance 1
+constexpr double kQuantile = 0.9, kUsual = 2.71;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kSafety = 1.5, kLeast = 0.1;
 
 }  // namespace
@@ -23,20 +23,25 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
   for (std::size_t j = 0; j < patches.patches.size(); ++j)
     if (s.frame_of_patch[j] == largest) members.emplace_back(&patches.patches[j], s.local_of_patch[j]);
   const OrientationFrame frame = refit_frame(s.frames[largest], locals, members);
-  std::vector<double> squares;  // of tilts, over the systematic doubt
+  std::vector<std::pair<double, double>> squares;  // of tilts, over the systematic doubt; the patch's area
+  double all = 0;
   for (const auto& [patch, local] : members) {
     const Vec3 n = frame.direction(locals[local]);
     const double across = std::abs(n.dot(patch->fit.normal));
     const auto add = [&](const Vec3& axis, double doubt, double systematic) {
-      if (systematic > 0 && doubt - systematic < kPrecise * systematic) squares.push_back(std::pow(n.dot(axis) / across, 2) / systematic);
+      if (systematic > 0 && doubt - systematic < kPrecise * systematic) {
+        squares.emplace_back(std::pow(n.dot(axis) / across, 2) / systematic, patch->area);
+        all += patch->area;
+      }
     };
     add(patch->fit.u, patch->doubt_u, patch->systematic_u);
     add(patch->fit.v, patch->doubt_v, patch->systematic_v);
   }
   if (squares.size() < kEnough) return 1.0;
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  return std::clamp(kSafety * std::sqrt(*middle / kMedianOfSquare), kLeast, 1.0);
+  std::sort(squares.begin(), squares.end());
+  std::size_t at = 0;
+  for (double sum = squares[0].second; sum < kQuantile * all; sum += squares[at].second) ++at;
+  return std::clamp(kSafety * std::sqrt(squares[at].first / kUsual), kLeast, 1.0);
 }
 
 void reduce_doubt(Patches& patches, double share) {

@@ -36,7 +36,7 @@ void check_distinct(const Survey& survey, const std::string& name) {
     throw InputError(name, "points", fmt::format("{} distinct", distinct), "at least three that are not in a line");
 }
 
-constexpr double kLessDoubt = 0.8;  // of the systematic doubt: a scene that shows less is looked at again
+constexpr double kLessDoubt = 0.5;  // of the systematic doubt: a scene that shows less is looked at again
 
 /// A line of points lies in infinitely many planes: there is no right answer.
 void check_not_collinear(const VoxelGrid& grid, const Space& space, const std::string& name) {
@@ -125,7 +125,6 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       reduce_doubt(patches, share);
       selection = select_frames(patches, angles, space, options, context);
     }
-    if (getenv("UDBG")) fprintf(stderr,"share %g\n", shown_doubt(patches, selection, local_directions(angles, space)));
     record(selection, summary);
     if (selection.time_limit) context.warn("the exact solver ran out of time: the best selection found is not proven");
     model = build_model(selection, patches, grid, cells, angles, space, context);

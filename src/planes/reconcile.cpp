@@ -15,7 +15,7 @@ constexpr double kTypical = 3.0;  // … or, of many patches, what each may lose
 constexpr double kNear = 3.0 * kPi / 180.0;      // relations that fail by more are not considered
 constexpr double kWithin = 15.0 * kPi / 180.0;   // a patch never turns farther than this
 constexpr std::size_t kEarlier = 40;             // only the heaviest frames constrain others
-constexpr double kByChance = 0.05;  // relations as good that random directions may be expected to have by chance
+constexpr double kByChance = 0.2;  // relations as good that a frame may be expected to have by chance, by the share of the area that the other has
 
 struct Member {
   int patch, local;
@@ -188,6 +188,8 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
     return result;
   }
   std::vector<Group> nodes;
+  double all = 0;
+  for (const Patch& patch : patches.patches) all += patch.area;
   for (Group& group : groups_of(p, selection)) {
     group.frame = fit_constrained(p, group.frame, group.members, {}, {});
     std::vector<Member> members;
@@ -200,12 +202,11 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
     const double free = chi2(p, group.frame, group.members);
     std::vector<Constraint> rows;
     const std::size_t most = space.is_2d() ? 0 : group.frame.closed ? 3 : 2;  // turns that are left to fix
-    double tests = 0;
     for (std::size_t e = 0; e < std::min(nodes.size(), kEarlier) && rows.size() < most; ++e) {
       const std::vector<Vec3> others = telling_directions(p, nodes[e].frame, nodes[e].members);
-      tests += static_cast<double>(own.size() * others.size());
+      const double unlikely = kByChance * nodes[e].weight / (all * static_cast<double>(own.size() * others.size()));
       for (const Hypothesis& h : hypotheses(p, group.frame, own, index, static_cast<int>(e), nodes[e].frame, others)) {
-        if (rows.size() + h.rows.size() > most || tests * h.chance > kByChance) continue;
+        if (rows.size() + h.rows.size() > most || h.chance > unlikely) continue;
         std::vector<Constraint> more = rows;
         more.insert(more.end(), h.rows.begin(), h.rows.end());
         if (!independent(more, group.frame, result.frames)) continue;
