@@ -10,12 +10,13 @@ namespace {
 
 constexpr std::size_t kEnough = 12;      // tilts
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
-constexpr double kQuantile = 0.9, kUsual = 2.71;  // the square of a standard normal variable is below this so often; tails are heavy
-constexpr double kSafety = 1.5, kLeast = 0.1;
+constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
+constexpr double kSafety = 2, kLeast = 0.1;
 
 }  // namespace
 
 double shown_doubt(const Patches& patches, const Selection& s, const std::vector<Vec3>& locals) {
+  if (s.frames.empty()) return 1.0;
   std::vector<double> area(s.frames.size(), 0.0);
   for (std::size_t j = 0; j < patches.patches.size(); ++j) area[s.frame_of_patch[j]] += patches.patches[j].area;
   const auto largest = std::max_element(area.begin(), area.end()) - area.begin();

@@ -124,7 +124,8 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
     // No doubt excuses a tilt that carries the patch's points out of the plane's tolerance.
     return std::min(tilt, std::pow(kLargestShift * scale / width, 2));
   };
-  const auto noise = [&](double variance, double width) { return std::max(variance, fit.rms * fit.rms / (kMostPoints * width * width)); };
+  const double independent = std::clamp(patch.moments.count - 3, 1.0, kMostPoints);
+  const auto noise = [&](double variance, double width) { return std::max(variance, fit.rms * fit.rms / (independent * width * width)); };
   const double width_u = std::max(fit.spread_u, 1e-300), width_v = std::max(fit.spread_v, 1e-300);
   patch.systematic_u = systematic(width_u);
   patch.systematic_v = space.is_2d() ? 0.0 : systematic(width_v);

@@ -36,7 +36,10 @@ void check_distinct(const Survey& survey, const std::string& name) {
     throw InputError(name, "points", fmt::format("{} distinct", distinct), "at least three that are not in a line");
 }
 
-constexpr double kLessDoubt = 0.5;  // of the systematic doubt: a scene that shows less is looked at again
+// Where a scene shows this much less doubt, or even less, frames are selected again, a few times at most: what was near the
+// largest frame by chance leaves it then, and more of the doubt with it.
+constexpr double kMuchLess = 0.7;
+constexpr int kAgain = 3;
 
 /// A line of points lies in infinitely many planes: there is no right answer.
 void check_not_collinear(const VoxelGrid& grid, const Space& space, const std::string& name) {
@@ -121,7 +124,9 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   {
     Stage stage(context, summary, "selection");
     Selection selection = select_frames(patches, angles, space, options, context);
-    if (const double share = shown_doubt(patches, selection, local_directions(angles, space)); share < kLessDoubt && !selection.local_fits) {
+    for (int again = 0; again < kAgain && !selection.local_fits; ++again) {
+      const double share = shown_doubt(patches, selection, local_directions(angles, space));
+      if (share > kMuchLess) break;
       reduce_doubt(patches, share);
       selection = select_frames(patches, angles, space, options, context);
     }

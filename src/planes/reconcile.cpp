@@ -15,7 +15,7 @@ constexpr double kTypical = 3.0;  // … or, of many patches, what each may lose
 constexpr double kNear = 3.0 * kPi / 180.0;      // relations that fail by more are not considered
 constexpr double kWithin = 15.0 * kPi / 180.0;   // a patch never turns farther than this
 constexpr std::size_t kEarlier = 40;             // only the heaviest frames constrain others
-constexpr double kByChance = 0.2;  // relations as good that a frame may be expected to have by chance, by the share of the area that the other has
+constexpr double kByChance = 0.1;  // relations as good that a frame may be expected to have by chance, by the share of the area that the other has
 
 struct Member {
   int patch, local;

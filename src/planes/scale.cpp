@@ -12,7 +12,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kProbes = 2000, kNormalProbes = 500;  // for the scale; for whether normals are usable
+constexpr std::size_t kProbes = 2000, kNormalProbes = 128;  // for the scale; for whether normals are usable
 constexpr double kSparsest = 3.0, kFar = 2.0;               // times the typical spacing
 constexpr std::size_t kFewest = 32, kMost = 128;            // neighbours of a probe
 constexpr double kFlat = 0.5;                               // rms over spread of a disc

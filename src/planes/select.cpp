@@ -71,54 +71,58 @@ std::vector<OrientationFrame> refit_used(const Patches& patches, const std::vect
   return refitted;
 }
 
-/// The frame of these that suits the most area, fitted to it, if that is a good part of all.
-std::optional<OrientationFrame> dominant_frame(const Patches& patches, const std::vector<OrientationFrame>& frames, const std::vector<Vec3>& locals,
-                                               double patch_angle) {
-  double all = 0, most = 0;
-  for (const Patch& patch : patches.patches) all += patch.area;
-  const auto suited = [&](const OrientationFrame& frame) {
-    std::vector<std::pair<const Patch*, int>> list;
-    for (const Patch& patch : patches.patches) {
-      const Candidate c = best_candidate(patch, frame, locals, patch_angle);
-      if (c.local >= 0 && tilt_chi2(patch, frame.direction(locals[c.local])) < kIndistinct) list.emplace_back(&patch, c.local);
-    }
-    return list;
-  };
-  std::optional<OrientationFrame> best;
-  for (OrientationFrame frame : frames) {
-    if (!frame.closed) continue;
-    double area = 0;
-    for (const auto& [patch, local] : suited(frame)) area += patch->area;
-    if (area > most) {
-      most = area;
-      best = frame;
-    }
+/// A patch to which a frame offers an orientation.
+struct Offered {
+  std::size_t patch;
+  int local;
+};
+
+/// Patches from whose own orientation the one that a frame offers does not differ.
+std::vector<Offered> suited_by(const OrientationFrame& frame, const Patches& patches, const std::vector<Vec3>& locals, double patch_angle) {
+  std::vector<Offered> suited;
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+    const Patch& patch = patches.patches[j];
+    const Candidate c = best_candidate(patch, frame, locals, patch_angle);
+    if (c.local >= 0 && tilt_chi2(patch, frame.direction(locals[c.local])) < kIndistinct) suited.push_back({j, c.local});
   }
-  if (most < kDominant * all) return std::nullopt;
-  for (int i = 0; i < 3; ++i) best = refit_frame(*best, locals, suited(*best));
-  return best;
+  return suited;
+}
+
+/// Adds the proposed frame that suits the most area, if that is much of the whole: the energy may have shared it out among
+/// frames that are needed for something else.
+void add_dominant_frame(const Patches& patches, const std::vector<OrientationFrame>& proposed, const std::vector<Vec3>& locals,
+                        double patch_angle, const Context& context, Selection& s) {
+  std::vector<double> areas(proposed.size(), 0.0);
+  parallel_blocks(context, proposed.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (proposed[k].closed)
+        for (const Offered& o : suited_by(proposed[k], patches, locals, patch_angle)) areas[k] += patches.patches[o.patch].area;
+  });
+  double all = 0;
+  for (const Patch& patch : patches.patches) all += patch.area;
+  const auto largest = std::max_element(areas.begin(), areas.end());
+  if (largest == areas.end() || *largest < kDominant * all) return;
+  OrientationFrame frame = proposed[largest - areas.begin()];
+  for (int i = 0; i < 3; ++i) {
+    std::vector<std::pair<const Patch*, int>> members;
+    for (const Offered& o : suited_by(frame, patches, locals, patch_angle)) members.emplace_back(&patches.patches[o.patch], o.local);
+    frame = refit_frame(frame, locals, members);
+  }
+  s.frames.push_back(frame);
 }
 
 /// Where several frames offer a patch an orientation from which its own does not differ, the one that can have the most area takes it,
 /// then the one that can have most of what is left: a room keeps its floor when a table shares it, and walls stay together.
 void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, Selection& s) {
-  const std::size_t n = patches.patches.size();
-  struct Offered {
-    std::size_t patch;
-    int local;
-  };
-  std::vector<std::vector<Offered>> offers(s.frames.size());
-  for (std::size_t j = 0; j < n; ++j) {
-    const Patch& patch = patches.patches[j];
-    const Vec3 has = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
-    for (std::size_t k = 0; k < s.frames.size(); ++k) {
-      const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
-      if (c.local < 0) continue;
-      const Vec3 offered = s.frames[k].direction(locals[c.local]);
-      if (line_angle(offered, has) < kSameOrientation || tilt_chi2(patch, offered) < kIndistinct) offers[k].push_back({j, c.local});
-    }
+  std::vector<std::vector<Offered>> offers;
+  for (std::size_t k = 0; k < s.frames.size(); ++k) {
+    offers.push_back(suited_by(s.frames[k], patches, locals, patch_angle));
+    std::vector<char> listed(patches.patches.size(), 0);
+    for (const Offered& o : offers[k]) listed[o.patch] = 1;
+    for (std::size_t j = 0; j < patches.patches.size(); ++j)
+      if (!listed[j] && s.frame_of_patch[j] == static_cast<int>(k)) offers[k].push_back({j, s.local_of_patch[j]});
   }
-  std::vector<char> given(n, 0);
+  std::vector<char> given(patches.patches.size(), 0);
   for (std::size_t round = 0; round < s.frames.size(); ++round) {
     std::size_t largest = 0;
     double most = 0;
@@ -233,7 +237,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
   }
   const auto started = std::chrono::steady_clock::now();
   std::size_t done = 0;
-  std::vector<OrientationFrame> first;
+  std::vector<OrientationFrame> proposed;  // for the largest patches
   // Bounds only report: those of one round are sought while the next ones choose.
   const std::launch beside = context.threads == 1 ? std::launch::deferred : std::launch::async;
   std::vector<std::future<double>> bounds;
@@ -251,7 +255,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     std::vector<OrientationFrame> frames = s.frames;
     for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle, context))
       frames.push_back(std::move(f));
-    if (first.empty()) first = frames;
+    if (proposed.empty()) proposed = frames;
     SelectionProblem problem;
     const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
       return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem, context);
@@ -304,7 +308,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       s.local_of_patch[round[i]] = best_candidate(patches.patches[round[i]], s.frames[to], locals, patch_angle).local;
     }
   }
-  if (const auto dominant = dominant_frame(patches, first, locals, patch_angle)) s.frames.push_back(*dominant);
+  if (s.frames.size() > 1) add_dominant_frame(patches, proposed, locals, patch_angle, context, s);
   give_to_largest(patches, locals, patch_angle, s);
   for (std::future<double>& bound : bounds) s.bound += bound.get();
   return s;
