@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kEnough = 12;      // tilts
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
-constexpr double kSafety = 2, kLeast = 0.1;
+constexpr double kLeast = 0.1;
 
 }  // namespace
 
@@ -42,7 +42,8 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
   std::sort(squares.begin(), squares.end());
   std::size_t at = 0;
   for (double sum = squares[0].second; sum < kQuantile * all; sum += squares[at].second) ++at;
-  return std::clamp(kSafety * std::sqrt(squares[at].first / kUsual), kLeast, 1.0);
+  const double safety = 2 + 4 / std::sqrt(static_cast<double>(squares.size()));
+  return std::clamp(safety * std::sqrt(squares[at].first / kUsual), kLeast, 1.0);
 }
 
 void reduce_doubt(Patches& patches, double share) {

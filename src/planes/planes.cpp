@@ -38,7 +38,7 @@ void check_distinct(const Survey& survey, const std::string& name) {
 
 // Where a scene shows this much less doubt, or even less, frames are selected again, a few times at most: what was near the
 // largest frame by chance leaves it then, and more of the doubt with it.
-constexpr double kMuchLess = 0.7;
+constexpr double kMuchLess = 0.75;
 constexpr int kAgain = 3;
 
 /// A line of points lies in infinitely many planes: there is no right answer.

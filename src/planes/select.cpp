@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kFirstRound = 80;  // patches that are selected at once, at least
 constexpr double kExplained = 0.05;       // data cost below which a patch asks for no new frame
 constexpr double kSameOrientation = 0.5 * kPi / 180.0;
-constexpr double kIndistinct = 9.0;  // χ²: three standard errors
+constexpr double kIndistinct = 4.0;  // χ²: two standard errors
 constexpr double kDominant = 1.0 / 3;  // of the area
 
 /// Patches of each round, the largest first: the area threshold is halved until none is left.
@@ -111,16 +111,20 @@ void add_dominant_frame(const Patches& patches, const std::vector<OrientationFra
   s.frames.push_back(frame);
 }
 
-/// Where several frames offer a patch an orientation from which its own does not differ, the one that can have the most area takes it,
-/// then the one that can have most of what is left: a room keeps its floor when a table shares it, and walls stay together.
-void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, Selection& s) {
-  std::vector<std::vector<Offered>> offers;
-  for (std::size_t k = 0; k < s.frames.size(); ++k) {
-    offers.push_back(suited_by(s.frames[k], patches, locals, patch_angle));
-    std::vector<char> listed(patches.patches.size(), 0);
-    for (const Offered& o : offers[k]) listed[o.patch] = 1;
-    for (std::size_t j = 0; j < patches.patches.size(); ++j)
-      if (!listed[j] && s.frame_of_patch[j] == static_cast<int>(k)) offers[k].push_back({j, s.local_of_patch[j]});
+/// Where several frames offer a patch the orientation that it has, or one from which its own does not differ, the frame that can have
+/// the most area takes it, then the one that can have most of what is left: a room keeps its floor when a table shares it, and walls
+/// stay together. Lines of a drawing have one angle, and many differ little by chance: they are given no other orientation.
+void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Space& space, Selection& s) {
+  std::vector<std::vector<Offered>> offers(s.frames.size());
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+    const Patch& patch = patches.patches[j];
+    const Vec3 has = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
+    for (std::size_t k = 0; k < s.frames.size(); ++k) {
+      const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
+      if (c.local < 0) continue;
+      const Vec3 offered = s.frames[k].direction(locals[c.local]);
+      if (line_angle(offered, has) < kSameOrientation || (!space.is_2d() && tilt_chi2(patch, offered) < kIndistinct)) offers[k].push_back({j, c.local});
+    }
   }
   std::vector<char> given(patches.patches.size(), 0);
   for (std::size_t round = 0; round < s.frames.size(); ++round) {
@@ -308,8 +312,8 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       s.local_of_patch[round[i]] = best_candidate(patches.patches[round[i]], s.frames[to], locals, patch_angle).local;
     }
   }
-  if (s.frames.size() > 1) add_dominant_frame(patches, proposed, locals, patch_angle, context, s);
-  give_to_largest(patches, locals, patch_angle, s);
+  if (s.frames.size() > 1 && !space.is_2d()) add_dominant_frame(patches, proposed, locals, patch_angle, context, s);
+  give_to_largest(patches, locals, patch_angle, space, s);
   for (std::future<double>& bound : bounds) s.bound += bound.get();
   return s;
 }

@@ -114,7 +114,7 @@ double shown_by_walls(double sd, std::size_t count) {
 
 TEST(Doubt, FollowsTheScatterOfWalls) {
   EXPECT_EQ(shown_by_walls(0.0, 60), 0.1);
-  EXPECT_NEAR(shown_by_walls(0.1, 60), 2 * 0.2, 0.1);
+  EXPECT_NEAR(shown_by_walls(0.1, 60), 2.4 * 0.2, 0.12);
   EXPECT_EQ(shown_by_walls(0.5, 60), 1.0);
   EXPECT_EQ(shown_by_walls(0.0, 4), 1.0);  // too few to tell
 }
