@@ -12,6 +12,7 @@ constexpr std::size_t kEnough = 12;      // tilts
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kLeast = 0.1;
+constexpr double kFewPoints = 15;  // of these, clutter at a rim is a part that large walls do not show
 
 }  // namespace
 
@@ -46,13 +47,14 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
   return std::clamp(safety * std::sqrt(squares[at].first / kUsual), kLeast, 1.0);
 }
 
-void reduce_doubt(Patches& patches, double share) {
-  const double less = 1 - share * share;
+void reduce_doubt(Patches& patches, double from, double to) {
   for (Patch& patch : patches.patches) {
-    patch.doubt_u -= less * patch.systematic_u;
-    patch.doubt_v -= less * patch.systematic_v;
-    patch.systematic_u *= share * share;
-    patch.systematic_v *= share * share;
+    const double least = std::min(1.0, kFewPoints / patch.moments.count);
+    const double kept = std::max(to * to, least) / std::max(from * from, least);
+    patch.doubt_u -= (1 - kept) * patch.systematic_u;
+    patch.doubt_v -= (1 - kept) * patch.systematic_v;
+    patch.systematic_u *= kept;
+    patch.systematic_v *= kept;
   }
 }
 

@@ -10,7 +10,7 @@ namespace unseen::planes {
 /// far the patches of the frame that has most area are off it. 1 where too few of them are fitted well enough to tell.
 double shown_doubt(const Patches& patches, const Selection& selection, const std::vector<Vec3>& locals);
 
-/// Leaves this share of the systematic doubt of every patch.
-void reduce_doubt(Patches& patches, double share);
+/// Brings the systematic doubt of every patch from one share of its standard deviation at first to another. Of few points it keeps more.
+void reduce_doubt(Patches& patches, double from, double to);
 
 }  // namespace unseen::planes

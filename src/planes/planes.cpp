@@ -124,10 +124,12 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   {
     Stage stage(context, summary, "selection");
     Selection selection = select_frames(patches, angles, space, options, context);
+    double doubt = 1;
     for (int again = 0; again < kAgain && !selection.local_fits; ++again) {
       const double share = shown_doubt(patches, selection, local_directions(angles, space));
       if (share > kMuchLess) break;
-      reduce_doubt(patches, share);
+      reduce_doubt(patches, doubt, doubt * share);
+      doubt *= share;
       selection = select_frames(patches, angles, space, options, context);
     }
     record(selection, summary);
