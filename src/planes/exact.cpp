@@ -56,25 +56,33 @@ struct Variables {
   std::vector<int> frame;
 };
 
-/// The cost of the pairs of chosen frames: at least that of one line, whichever the program picks.
-void write_irregularity_cost(const SelectionProblem& p, const std::vector<std::pair<int, double>>& pairs, double most, Program& program) {
-  if (pairs.empty() || p.lambda == 1.0) return;
+/// The cost of pairs of chosen frames: at least that of one line, whichever the program picks. No selection of less energy than `upper`
+/// has pairs for which a line counts that is left out.
+void write_irregularity_cost(const SelectionProblem& p, const std::vector<std::pair<int, double>>& pairs, double upper, Program& program) {
+  const double affordable = upper / (1.0 - p.lambda);
+  double most = 0;  // irregularity that such a selection may have
+  for (const Line& line : kIrregularityLines) most = std::max(most, (affordable - line.at_zero) / line.slope);
+  std::vector<Line> lines;
+  for (const Line& line : kIrregularityLines)
+    if (lines.empty() || line.at_zero + line.slope * most < lines.back().at_zero + lines.back().slope * most) lines.push_back(line);
+  if (lines.size() == 1) {
+    for (const auto& [pair, irregularity] : pairs) program.cost[pair] = (1.0 - p.lambda) * irregularity;
+    return;
+  }
   const int cost = program.variable(1.0 - p.lambda, false);
-  program.high[cost] = most;
+  program.high[cost] = affordable;
   std::vector<std::pair<int, double>> one;
-  for (const Line& line : kIrregularityLines) {
-    // cost ≥ at_zero + slope·pairs − (at_zero + slope·most) (1 − picked)
-    const double top = line.at_zero + line.slope * most;
+  for (const Line& line : lines) {
+    const double top = line.at_zero + line.slope * most;  // cost ≥ at_zero + slope·pairs − top (1 − picked)
     one.emplace_back(program.variable(0.0, true), 1.0);
     std::vector<std::pair<int, double>> terms = {{cost, -1.0}, {one.back().first, top}};
     for (const auto& [pair, irregularity] : pairs) terms.emplace_back(pair, line.slope * irregularity);
     program.row(terms, -1e30, top - line.at_zero);
-    if (line.at_zero >= most) break;  // from here on no line can be the least
   }
   program.row(one, 1.0, 1.0);
 }
 
-Variables write_program(const SelectionProblem& p, Program& program) {
+Variables write_program(const SelectionProblem& p, double upper, Program& program) {
   constexpr double kFree = 1e30;
   Variables v;
   for (int k = 0; k < p.frames(); ++k) {
@@ -94,7 +102,6 @@ Variables write_program(const SelectionProblem& p, Program& program) {
     program.row(one, 1.0, 1.0);
   }
   std::vector<std::pair<int, double>> pairs;  // their sum is what irregularity_cost takes
-  double most = 0;
   for (int a = 0; a < p.frames(); ++a)
     for (int b = 0; b < a; ++b) {
       const double irregularity = p.irregularity(a, b);
@@ -102,9 +109,8 @@ Variables write_program(const SelectionProblem& p, Program& program) {
       const int both = program.variable(0.0, false);
       program.row({{v.frame[a], 1.0}, {v.frame[b], 1.0}, {both, -1.0}}, -kFree, 1.0);
       pairs.emplace_back(both, irregularity);
-      most += irregularity;
     }
-  write_irregularity_cost(p, pairs, most, program);
+  if (p.lambda < 1.0) write_irregularity_cost(p, pairs, upper + 1e-6, program);
   for (const auto& [a, b] : p.neighbours) {
     if (p.smoothness() <= 0.0) break;
     const int differ = program.variable(p.smoothness(), false);
@@ -165,7 +171,8 @@ ExactSolution solve_exact(const SelectionProblem& p, const Labels& start, double
   const Limit limit{context, std::chrono::steady_clock::now() +
                                  std::chrono::milliseconds(static_cast<long>(1e3 * std::min(seconds, 1e9)))};
   Program program;
-  const Variables v = write_program(p, program);
+  const double upper = energy_of(p, start).total();
+  const Variables v = write_program(p, upper, program);
   OsiClpSolverInterface clp;
   clp.messageHandler()->setLogLevel(0);
   clp.loadProblem(program.rows(), program.low.data(), program.high.data(), program.cost.data(),
@@ -181,7 +188,6 @@ ExactSolution solve_exact(const SelectionProblem& p, const Labels& start, double
   model.setLogLevel(0);
   model.setMaximumSeconds(seconds);
   model.setAllowableFractionGap(1e-6);
-  const double upper = energy_of(p, start).total();
   model.setCutoff(upper + 1e-6);
   model.branchAndBound();
   context.check();
