@@ -12,7 +12,22 @@ constexpr std::size_t kEnough = 12;      // tilts
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kLeast = 0.1;
+constexpr double kRough = 2;       // times the typical noise
 constexpr double kFewPoints = 15;  // of these, clutter at a rim is a part that large walls do not show
+
+/// Median over the area (m).
+double typical_rms(const Patches& patches) {
+  std::vector<std::pair<double, double>> rms;  // and area
+  double all = 0;
+  for (const Patch& patch : patches.patches) {
+    rms.emplace_back(patch.fit.rms, patch.area);
+    all += patch.area;
+  }
+  std::sort(rms.begin(), rms.end());
+  std::size_t at = 0;
+  for (double sum = rms[0].second; sum < 0.5 * all; sum += rms[at].second) ++at;
+  return rms[at].first;
+}
 
 }  // namespace
 
@@ -48,8 +63,10 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
 }
 
 void reduce_doubt(Patches& patches, double from, double to) {
+  const double typical = typical_rms(patches);
   for (Patch& patch : patches.patches) {
-    const double least = std::min(1.0, kFewPoints / patch.moments.count);
+    const bool rough = patch.fit.rms > kRough * typical;  // two sides of a wall, or more than one thing
+    const double least = rough ? 1.0 : std::min(1.0, kFewPoints / patch.moments.count);
     const double kept = std::max(to * to, least) / std::max(from * from, least);
     patch.doubt_u -= (1 - kept) * patch.systematic_u;
     patch.doubt_v -= (1 - kept) * patch.systematic_v;

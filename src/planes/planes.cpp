@@ -38,7 +38,7 @@ void check_distinct(const Survey& survey, const std::string& name) {
 
 // Where a scene shows this much less doubt, or even less, frames are selected again, a few times at most: what was near the
 // largest frame by chance leaves it then, and more of the doubt with it.
-constexpr double kMuchLess = 0.75;
+constexpr double kMuchLess = 0.6, kLeastDoubt = 0.1;
 constexpr int kAgain = 3;
 
 /// A line of points lies in infinitely many planes: there is no right answer.
@@ -125,13 +125,15 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     Stage stage(context, summary, "selection");
     Selection selection = select_frames(patches, angles, space, options, context);
     double doubt = 1;
-    for (int again = 0; again < kAgain && !selection.local_fits; ++again) {
+    for (int again = 0; again < kAgain && doubt > kLeastDoubt && !selection.local_fits; ++again) {
       const double share = shown_doubt(patches, selection, local_directions(angles, space));
       if (share > kMuchLess) break;
-      reduce_doubt(patches, doubt, doubt * share);
-      doubt *= share;
+      const double less = std::max(kLeastDoubt, doubt * share);
+      reduce_doubt(patches, doubt, less);
+      doubt = less;
       selection = select_frames(patches, angles, space, options, context);
     }
+    share_out(patches, angles, space, options, context, selection);
     record(selection, summary);
     if (selection.time_limit) context.warn("the exact solver ran out of time: the best selection found is not proven");
     model = build_model(selection, patches, grid, cells, angles, space, context);

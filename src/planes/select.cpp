@@ -90,8 +90,8 @@ std::vector<Offered> suited_by(const OrientationFrame& frame, const Patches& pat
 
 /// Adds the proposed frame that suits the most area, if that is much of the whole: the energy may have shared it out among
 /// frames that are needed for something else.
-void add_dominant_frame(const Patches& patches, const std::vector<OrientationFrame>& proposed, const std::vector<Vec3>& locals,
-                        double patch_angle, const Context& context, Selection& s) {
+void add_dominant_frame(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Context& context, Selection& s) {
+  const std::vector<OrientationFrame>& proposed = s.proposed;
   std::vector<double> areas(proposed.size(), 0.0);
   parallel_blocks(context, proposed.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
@@ -241,7 +241,6 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
   }
   const auto started = std::chrono::steady_clock::now();
   std::size_t done = 0;
-  std::vector<OrientationFrame> proposed;  // for the largest patches
   // Bounds only report: those of one round are sought while the next ones choose.
   const std::launch beside = context.threads == 1 ? std::launch::deferred : std::launch::async;
   std::vector<std::future<double>> bounds;
@@ -259,7 +258,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     std::vector<OrientationFrame> frames = s.frames;
     for (OrientationFrame& f : propose_frames(patches, unexplained, s.frames, angles, space, patch_angle, context))
       frames.push_back(std::move(f));
-    if (proposed.empty()) proposed = frames;
+    if (s.proposed.empty()) s.proposed = frames;
     SelectionProblem problem;
     const auto problem_of = [&](const std::vector<OrientationFrame>& pool) {
       return make_problem(patches, round, pool, fixed, angles, locals, lambda, patch_angle, problem, context);
@@ -312,10 +311,16 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       s.local_of_patch[round[i]] = best_candidate(patches.patches[round[i]], s.frames[to], locals, patch_angle).local;
     }
   }
-  if (s.frames.size() > 1 && !space.is_2d()) add_dominant_frame(patches, proposed, locals, patch_angle, context, s);
-  give_to_largest(patches, locals, patch_angle, space, s);
   for (std::future<double>& bound : bounds) s.bound += bound.get();
   return s;
+}
+
+void share_out(const Patches& patches, const AngleSet& angles, const Space& space, const Options& options, const Context& context, Selection& s) {
+  if (s.local_fits) return;
+  const std::vector<Vec3> locals = local_directions(angles, space);
+  const double patch_angle = radians(options.patch_angle);
+  if (s.frames.size() > 1 && !space.is_2d()) add_dominant_frame(patches, locals, patch_angle, context, s);
+  give_to_largest(patches, locals, patch_angle, space, s);
 }
 
 }  // namespace unseen::planes

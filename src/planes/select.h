@@ -12,6 +12,7 @@ namespace unseen::planes {
 struct Selection {
   std::vector<OrientationFrame> frames;
   std::vector<int> frame_of_patch, local_of_patch;
+  std::vector<OrientationFrame> proposed;  ///< for the largest patches
   Energy before, after;  ///< of every local fit kept, and of this selection
   double bound = 0;      ///< no selection from the same candidates, round by round, has less energy
   bool time_limit = false;
@@ -43,5 +44,9 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
 /// smaller patches, and are not changed by them.
 Selection select_frames(const Patches& patches, const AngleSet& angles, const Space& space,
                         const Options& options, Context& context);
+
+/// Orientations that much of a scene shares, of which the energy does not mind which frame has them: a proposed frame that suits much of
+/// the area is added, and patches whose own orientation does not differ go to the frame that can have the most area.
+void share_out(const Patches& patches, const AngleSet& angles, const Space& space, const Options& options, const Context& context, Selection& selection);
 
 }  // namespace unseen::planes
