@@ -68,10 +68,13 @@ void reduce_doubt(Patches& patches, double from, double to) {
     const bool rough = patch.fit.rms > kRough * typical;  // two sides of a wall, or more than one thing
     const double least = rough ? 1.0 : std::min(1.0, kFewPoints / patch.moments.count);
     const double kept = std::max(to * to, least) / std::max(from * from, least);
-    patch.doubt_u -= (1 - kept) * patch.systematic_u;
-    patch.doubt_v -= (1 - kept) * patch.systematic_v;
-    patch.systematic_u *= kept;
-    patch.systematic_v *= kept;
+    const auto reduce = [&](double& doubt, double& systematic) {
+      if (!std::isfinite(systematic)) return;  // points in a line say nothing about one of the tilts
+      doubt -= (1 - kept) * systematic;
+      systematic *= kept;
+    };
+    reduce(patch.doubt_u, patch.systematic_u);
+    reduce(patch.doubt_v, patch.systematic_v);
   }
 }
 

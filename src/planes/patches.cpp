@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 
@@ -128,9 +129,9 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   const auto noise = [&](double variance, double width) { return std::max(variance, fit.rms * fit.rms / (independent * width * width)); };
   const double width_u = std::max(fit.spread_u, 1e-300), width_v = std::max(fit.spread_v, 1e-300);
   patch.systematic_u = systematic(width_u);
-  patch.systematic_v = space.is_2d() ? 0.0 : systematic(width_v);
+  patch.systematic_v = space.is_2d() ? 0.0 : systematic(width_v);  // a line cannot tilt out of its drawing
   patch.doubt_u = noise(patch.variance_u, width_u) + patch.systematic_u;
-  patch.doubt_v = noise(patch.variance_v, width_v) + patch.systematic_v;
+  patch.doubt_v = space.is_2d() ? std::numeric_limits<double>::infinity() : noise(patch.variance_v, width_v) + patch.systematic_v;
   return patch;
 }
 

@@ -178,6 +178,17 @@ TEST(Drawings, AFloorplanKeepsItsTurnedFurniture) {
   EXPECT_GT(static_cast<double>(right), 0.9 * static_cast<double>(turned));
 }
 
+TEST(Drawings, LinesWithoutAnyNoise) {
+  PointCloud cloud;
+  for (int i = 0; i < 500; ++i) {
+    cloud.positions.emplace_back(0.008 * i, 0, 0);
+    cloud.positions.emplace_back(0, 0.008 * i, 0);
+  }
+  const test::Run r = test::run(cloud, test::with_scale(0.05));
+  ASSERT_EQ(r.result.planes.size(), 2u);
+  EXPECT_EQ(r.result.frames.size(), 1u);
+}
+
 /// Points of a drawing in a plane other than z = 0 are noticed, and the lines lie in it.
 TEST(Drawings, AnyCoordinatePlaneWillDo) {
   SynthOptions synth;
