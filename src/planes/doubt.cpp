@@ -5,28 +5,35 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planes/weighted.h"
+
 namespace unseen::planes {
 namespace {
 
 constexpr std::size_t kEnough = 12;      // tilts
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
-constexpr double kLeast = 0.1;
-constexpr double kRough = 2;       // times the typical noise
+constexpr double kMuchLess = 0.6, kLeast = 0.1;  // of the doubt at first: when to look again, and what is left at least
+constexpr int kAgain = 3;  // what was in the largest frame by chance leaves it, and then more of the doubt goes
+constexpr double kRough = 2;       // times the typical noise: two sides of a wall, or more than one thing
 constexpr double kFewPoints = 15;  // of these, clutter at a rim is a part that large walls do not show
 
-/// Median over the area (m).
-double typical_rms(const Patches& patches) {
-  std::vector<std::pair<double, double>> rms;  // and area
-  double all = 0;
-  for (const Patch& patch : patches.patches) {
-    rms.emplace_back(patch.fit.rms, patch.area);
-    all += patch.area;
+/// Brings the systematic doubt of every patch from one share of its standard deviation at first to another. What is small or rough keeps more.
+void reduce_doubt(Patches& patches, double from, double to) {
+  std::vector<std::pair<double, double>> noise;
+  for (const Patch& patch : patches.patches) noise.emplace_back(patch.fit.rms, patch.area);
+  const double typical = weighted_quantile(std::move(noise), 0.5);
+  for (Patch& patch : patches.patches) {
+    const double least = patch.fit.rms > kRough * typical ? 1.0 : std::min(1.0, kFewPoints / patch.moments.count);
+    const double kept = std::max(to * to, least) / std::max(from * from, least);
+    const auto reduce = [&](double& doubt, double& systematic) {
+      if (!std::isfinite(systematic)) return;  // points in a line say nothing about one of the tilts
+      doubt -= (1 - kept) * systematic;
+      systematic *= kept;
+    };
+    reduce(patch.doubt_u, patch.systematic_u);
+    reduce(patch.doubt_v, patch.systematic_v);
   }
-  std::sort(rms.begin(), rms.end());
-  std::size_t at = 0;
-  for (double sum = rms[0].second; sum < 0.5 * all; sum += rms[at].second) ++at;
-  return rms[at].first;
 }
 
 }  // namespace
@@ -41,41 +48,38 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
     if (s.frame_of_patch[j] == largest) members.emplace_back(&patches.patches[j], s.local_of_patch[j]);
   const OrientationFrame frame = refit_frame(s.frames[largest], locals, members);
   std::vector<std::pair<double, double>> squares;  // of tilts, over the systematic doubt; the patch's area
-  double all = 0;
   for (const auto& [patch, local] : members) {
     const Vec3 n = frame.direction(locals[local]);
     const double across = std::abs(n.dot(patch->fit.normal));
     const auto add = [&](const Vec3& axis, double doubt, double systematic) {
-      if (systematic > 0 && doubt - systematic < kPrecise * systematic) {
+      if (systematic > 0 && doubt - systematic < kPrecise * systematic)
         squares.emplace_back(std::pow(n.dot(axis) / across, 2) / systematic, patch->area);
-        all += patch->area;
-      }
     };
     add(patch->fit.u, patch->doubt_u, patch->systematic_u);
     add(patch->fit.v, patch->doubt_v, patch->systematic_v);
   }
   if (squares.size() < kEnough) return 1.0;
-  std::sort(squares.begin(), squares.end());
-  std::size_t at = 0;
-  for (double sum = squares[0].second; sum < kQuantile * all; sum += squares[at].second) ++at;
   const double safety = 2 + 4 / std::sqrt(static_cast<double>(squares.size()));
-  return std::clamp(safety * std::sqrt(squares[at].first / kUsual), kLeast, 1.0);
+  return std::clamp(safety * std::sqrt(weighted_quantile(std::move(squares), kQuantile) / kUsual), kLeast, 1.0);
 }
 
-void reduce_doubt(Patches& patches, double from, double to) {
-  const double typical = typical_rms(patches);
-  for (Patch& patch : patches.patches) {
-    const bool rough = patch.fit.rms > kRough * typical;  // two sides of a wall, or more than one thing
-    const double least = rough ? 1.0 : std::min(1.0, kFewPoints / patch.moments.count);
-    const double kept = std::max(to * to, least) / std::max(from * from, least);
-    const auto reduce = [&](double& doubt, double& systematic) {
-      if (!std::isfinite(systematic)) return;  // points in a line say nothing about one of the tilts
-      doubt -= (1 - kept) * systematic;
-      systematic *= kept;
-    };
-    reduce(patch.doubt_u, patch.systematic_u);
-    reduce(patch.doubt_v, patch.systematic_v);
+Selection select_as_built(Patches& patches, const AngleSet& angles, const Space& space, const Options& options, Context& context) {
+  Options local = options;
+  local.solver = "local";
+  Selection selection = select_frames(patches, angles, space, local, context);
+  if (selection.local_fits) return selection;
+  double doubt = 1;
+  for (int again = 0; again < kAgain && doubt > kLeast; ++again) {
+    const double shown = shown_doubt(patches, selection, local_directions(angles, space));
+    if (shown > kMuchLess) break;
+    const double less = std::max(kLeast, doubt * shown);
+    reduce_doubt(patches, doubt, less);
+    doubt = less;
+    selection = select_frames(patches, angles, space, local, context);
   }
+  if (options.solver != local.solver) selection = select_frames(patches, angles, space, options, context);
+  share_out(patches, angles, space, options, context, selection);
+  return selection;
 }
 
 }  // namespace unseen::planes

@@ -10,7 +10,8 @@ namespace unseen::planes {
 /// far the patches of the frame that has most area are off it. 1 where too few of them are fitted well enough to tell.
 double shown_doubt(const Patches& patches, const Selection& selection, const std::vector<Vec3>& locals);
 
-/// Brings the systematic doubt of every patch from one share of its standard deviation at first to another. Of few points it keeps more.
-void reduce_doubt(Patches& patches, double from, double to);
+/// Selects frames; where the scene shows much less doubt than patches have, theirs is reduced to it and frames are selected again. Then
+/// shares orientations out.
+Selection select_as_built(Patches& patches, const AngleSet& angles, const Space& space, const Options& options, Context& context);
 
 }  // namespace unseen::planes

@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "planes/doubt.h"
 #include "planes/arrange.h"
 #include "planes/assign.h"
 #include "planes/cells.h"
 #include "planes/describe.h"
+#include "planes/doubt.h"
 #include "planes/patches.h"
 #include "planes/scale.h"
 #include "planes/select.h"
@@ -35,11 +35,6 @@ void check_distinct(const Survey& survey, const std::string& name) {
   if (distinct < 3)
     throw InputError(name, "points", fmt::format("{} distinct", distinct), "at least three that are not in a line");
 }
-
-// Where a scene shows this much less doubt, or even less, frames are selected again, a few times at most: what was near the
-// largest frame by chance leaves it then, and more of the doubt with it.
-constexpr double kMuchLess = 0.6, kLeastDoubt = 0.1;
-constexpr int kAgain = 3;
 
 /// A line of points lies in infinitely many planes: there is no right answer.
 void check_not_collinear(const VoxelGrid& grid, const Space& space, const std::string& name) {
@@ -123,17 +118,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   Model model;
   {
     Stage stage(context, summary, "selection");
-    Selection selection = select_frames(patches, angles, space, options, context);
-    double doubt = 1;
-    for (int again = 0; again < kAgain && doubt > kLeastDoubt && !selection.local_fits; ++again) {
-      const double share = shown_doubt(patches, selection, local_directions(angles, space));
-      if (share > kMuchLess) break;
-      const double less = std::max(kLeastDoubt, doubt * share);
-      reduce_doubt(patches, doubt, less);
-      doubt = less;
-      selection = select_frames(patches, angles, space, options, context);
-    }
-    share_out(patches, angles, space, options, context, selection);
+    const Selection selection = select_as_built(patches, angles, space, options, context);
     record(selection, summary);
     if (selection.time_limit) context.warn("the exact solver ran out of time: the best selection found is not proven");
     model = build_model(selection, patches, grid, cells, angles, space, context);

@@ -65,7 +65,7 @@ std::vector<OrientationFrame> most_telling(const std::vector<OrientationFrame>& 
       ranked[k] = {worth(k), k};
     }
   });
-  const auto better = [](const auto& a, const auto& b) { return a.first < b.first || (a.first == b.first && a.second > b.second); };
+  const auto less = [](const auto& a, const auto& b) { return a.first < b.first || (a.first == b.first && a.second > b.second); };
   std::vector<OrientationFrame> chosen;
   const auto choose = [&](std::size_t k) {
     if (std::none_of(chosen.begin(), chosen.end(), [&](const OrientationFrame& f) { return same(f, frames[k]); }))
@@ -73,22 +73,22 @@ std::vector<OrientationFrame> most_telling(const std::vector<OrientationFrame>& 
   };
   // What a frame adds only shrinks, so one whose stale worth is not the largest need not be looked at.
   std::vector<std::pair<double, std::size_t>> queue = ranked;
-  std::make_heap(queue.begin(), queue.end(), better);
+  std::make_heap(queue.begin(), queue.end(), less);
   while (!queue.empty() && chosen.size() < kFrames) {
-    std::pop_heap(queue.begin(), queue.end(), better);
+    std::pop_heap(queue.begin(), queue.end(), less);
     const std::size_t k = queue.back().second;
     queue.back().first = worth(k);
     if (queue.back().first < kLeastGain) {
       queue.pop_back();
-    } else if (queue.size() > 1 && better(queue.back(), queue.front())) {
-      std::push_heap(queue.begin(), queue.end(), better);
+    } else if (queue.size() > 1 && less(queue.back(), queue.front())) {
+      std::push_heap(queue.begin(), queue.end(), less);
     } else {
       queue.pop_back();
       choose(k);
       for (const Offer& o : offers[k]) unexplained[o.patch] = std::min(unexplained[o.patch], o.cost);
     }
   }
-  std::sort(ranked.begin(), ranked.end(), [&](const auto& a, const auto& b) { return better(b, a); });
+  std::sort(ranked.begin(), ranked.end(), [&](const auto& a, const auto& b) { return less(b, a); });
   for (std::size_t i = 0; i < ranked.size() && chosen.size() < kFrames; ++i) choose(ranked[i].second);
   return chosen;
 }

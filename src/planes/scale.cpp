@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "planes/neighbourhoods.h"
+#include "planes/weighted.h"
 #include "unseen/core/error.h"
 
 namespace unseen::planes {
@@ -81,19 +82,13 @@ double median(const std::vector<Probe>& probes, const Space& space, F value) {
   for (const Probe& p : probes) spacing.push_back(p.sixth);
   const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
   std::nth_element(spacing.begin(), middle, spacing.end());
-  std::vector<std::pair<double, double>> weighted;  // value, weight
-  double total = 0;
+  std::vector<std::pair<double, double>> weighted;
   for (const Probe& p : probes) {
     const bool stray = p.sixth > kFar * *middle && p.fit.rms > kThick * p.sixth;
     const double side = stray ? 0.0 : std::min(p.sixth, kSparsest * *middle);
     weighted.emplace_back(value(p), space.is_2d() ? side : side * side);
-    total += weighted.back().second;
   }
-  std::sort(weighted.begin(), weighted.end());
-  double below = 0;
-  for (const auto& [v, weight] : weighted)
-    if ((below += weight) >= 0.5 * total) return v;
-  return weighted.back().first;
+  return weighted_quantile(std::move(weighted), 0.5);
 }
 
 }  // namespace
