@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "interactions/ground_fit.h"
@@ -52,6 +53,9 @@ std::size_t frames_of(const Take& take) {
 
 void solve(const std::vector<Take>& takes, const Database& database, const Options& options, Reconstruction& r, Context& context) {
   const Take take = merge_takes(takes);
+  if (take.camera_assumed)
+    context.warn(fmt::format("the camera's intrinsics are assumed: focal length {:.0f} px, a field of view of {:.0f}°; distances along the view scale with it", take.camera.fx,
+                             degrees(2 * std::atan2(0.5 * take.camera.width, take.camera.fx))));
   for (const std::string& remark : take.remarks) context.warn(remark);
   {
     const Stage stage(context, r.summary, "ground");

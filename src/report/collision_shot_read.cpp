@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "report/collision_shot_parts.h"
@@ -102,12 +104,14 @@ void read_footage(Shot& shot, const JsonField& json, const std::filesystem::path
 
 collision::ShotCamera read_shot_camera(const JsonField& shot) {
   constexpr double kAssumed = 60.0, kMost = 1e6;  // °, px
+  constexpr std::array<const char*, 5> kIntrinsics = {"fx", "fy", "cx", "cy", "distortion"};
   collision::ShotCamera c;
-  if (!shot.has("camera")) {
+  const auto assume = [&] {
     c.hfov = radians(kAssumed);
     c.assumed = true;
     return c;
-  }
+  };
+  if (!shot.has("camera")) return assume();
   const JsonField json = shot["camera"];
   json.allow_only({"fx", "fy", "cx", "cy", "distortion", "width", "height", "hfov_deg", "assumed"});
   if (json.has("assumed")) c.assumed = json["assumed"].truth();
@@ -118,11 +122,13 @@ collision::ShotCamera read_shot_camera(const JsonField& shot) {
     if (c.camera.width < 1 || c.camera.height < 1) json["width"].fail("a size above 0");
   }
   if (json.has("hfov_deg")) {
-    for (const char* key : {"fx", "fy", "cx", "cy", "distortion"})
+    for (const char* key : kIntrinsics)
       if (json.has(key)) json[key].fail("either hfov_deg alone, or fx, fy, cx, cy");
     c.hfov = radians(json["hfov_deg"].number(1.0, 170.0));
     return c;
   }
+  const auto has = [&](const char* key) { return json.has(key); };
+  if (std::none_of(kIntrinsics.begin(), kIntrinsics.end(), has)) return assume();
   for (const char* key : {"fx", "fy", "cx", "cy"})
     if (!json.has(key)) json.fail(fmt::format("fx, fy, cx and cy in pixels ({} is missing), or hfov_deg", key));
   c.camera.fx = json["fx"].number(1e-3, kMost);

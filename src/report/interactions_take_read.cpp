@@ -82,6 +82,7 @@ JointFile read_joints(Take& take, const JsonField& json, const fs::path& path) {
 }  // namespace
 
 Take read_take(const fs::path& path) {
+  if (fs::is_directory(path)) throw InputError(path.string(), "", "a folder", "a take file: TAKE.json, whose \"joints\" names the folder of a detector's files");
   const nlohmann::json parsed = io::parse_json(io::read_text_file(path, kLargestTake), path.string(), "a take file");
   const JsonField json(parsed, path.string());
   const fs::path folder = path.parent_path();

@@ -87,6 +87,9 @@ TEST_F(ShotFile, WithoutACameraSixtyDegreesAreAssumed) {
   EXPECT_EQ(s.camera.camera.fx, 0.0);
   good["camera"] = {{"hfov_deg", 70}, {"assumed", true}};
   EXPECT_TRUE(read(good).camera.assumed);
+  good["camera"] = {{"width", 1280}, {"height", 720}};
+  EXPECT_TRUE(read(good).camera.assumed);
+  EXPECT_NEAR(*read(good).camera.hfov, kPi / 3, 1e-15);
 }
 
 TEST_F(ShotFile, WhatIsFixedComesSecond) {

@@ -296,6 +296,14 @@ TEST(Reconstruct, FindsNothingWithoutScenelets) {
   EXPECT_TRUE(r.objects.empty());
 }
 
+TEST(Reconstruct, SaysThatACameraIsAssumed) {
+  Take take = generated(6001, 5).take;
+  take.camera_assumed = true;
+  Context context;
+  const std::vector<std::string> warnings = reconstruct({take}, {}, {}, context).summary.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("field of view") != std::string::npos; }));
+}
+
 TEST(Reconstruct, RefusesTakesWithoutDetectionsAndOtherCameras) {
   SynthTake synth = simulate(test::synth_options(6001, 5));
   Take empty = synth.take, other = synth.take;

@@ -215,6 +215,11 @@ TEST(TakeRead, ATrackersNamesBecomeNumbersOrNothing) {
   expect_error(folder.path() / "take.json", "person 0 twice");
 }
 
+TEST(TakeRead, AFolderIsNoTake) {
+  const Folder folder;
+  expect_error(folder.path(), "\"joints\" names the folder");
+}
+
 TEST(TakeRead, ACameraThatIsNotThereIsAssumed) {
   const Folder folder;
   folder.write("joints.json", Json{coco_person(1)});
@@ -232,6 +237,11 @@ TEST(TakeRead, ACameraThatIsNotThereIsAssumed) {
   EXPECT_FALSE(wide.camera_assumed);
   json["camera"]["assumed"] = true;
   EXPECT_TRUE(read_take(folder.write("take.json", json)).camera_assumed);
+  json["camera"] = {{"width", 1920}, {"height", 1080}};
+  const Take sized = read_take(folder.write("take.json", json));
+  EXPECT_TRUE(sized.camera_assumed);
+  EXPECT_EQ(sized.camera.width, 1920);
+  EXPECT_NEAR(2 * std::atan2(960.0, sized.camera.fx), kPi / 3, 1e-12);
 }
 
 TEST(TakeRead, JointsOutsideThePictureAreRemarkedOn) {
