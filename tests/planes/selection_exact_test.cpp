@@ -33,7 +33,10 @@ void expect_near_optimum(const SelectionProblem& p, const std::string& what, dou
 TEST(SolveExact, FindsTheOptimumFromAPoorStart) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     SelectionProblem p = test::random_problem(5, 3, 0.5, static_cast<int>(seed % 2), seed);
-    if (seed > 2) p.irregularity *= 10;  // so much that its cost bends
+    if (seed > 2) {  // so much that its cost bends, and yet several frames are worth it
+      p.irregularity *= 20;
+      p.data *= 30;
+    }
     Labels start;
     for (int j = 0; j < p.patches(); ++j) start.push_back(p.frames() - p.patches() + j);
     const ExactSolution exact = solve_exact(p, start, 20, kContext);
