@@ -39,6 +39,14 @@ bool convincing(const FoundObject& found) {
   return found.confidence >= kLeast[static_cast<std::size_t>(superclass)] && (superclass == Superclass::shelf || !found.windows.empty());
 }
 
+/// Who gestures holds a hand as one who reaches for a shelf. Where nobody is seen to use anything but shelves, no reach for one is surer than that.
+void doubt_shelves_alone(std::vector<FoundObject>& objects) {
+  constexpr double kGesture = 0.5;
+  const bool alone = std::all_of(objects.begin(), objects.end(), [](const FoundObject& found) { return found.object.superclass() == Superclass::shelf; });
+  if (!alone) return;
+  for (FoundObject& found : objects) found.confidence *= kGesture;
+}
+
 /// How likely the evidence holds that something of this superclass stands at a place: the most over its turns and the cells around.
 double evidence_at(const EvidenceMap& map, Superclass superclass, const Vec2& place) {
   const int column = static_cast<int>(std::floor((place.x() - map.origin.x()) / map.cell)), row = static_cast<int>(std::floor((place.y() - map.origin.y()) / map.cell));
@@ -116,6 +124,7 @@ std::vector<FoundObject> find_objects(const std::vector<Story>& stories, const D
     if (options.evidence) found.confidence *= std::min(1.0, evidence_at(evidence, found.object.superclass(), found.object.center().head<2>()) / 0.5);
   }
   std::erase_if(gathered.objects, [](const FoundObject& found) { return !convincing(found); });
+  doubt_shelves_alone(gathered.objects);
   return gathered.objects;
 }
 

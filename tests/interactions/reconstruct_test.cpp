@@ -188,7 +188,6 @@ TEST(Reconstruct, EndsWhenAskedToStop) {
   }
 }
 
-/// Measured over twelve takes: nothing in three, one object in six, two in three; the surest has 0.69.
 TEST(Reconstruct, FindsLittleWhereNobodyTouchesAnything) {
   std::size_t objects = 0;
   for (const int seed : {6011, 6012, 6013}) {
@@ -199,7 +198,7 @@ TEST(Reconstruct, FindsLittleWhereNobodyTouchesAnything) {
     expect_sound(r, synth.take);
     EXPECT_LE(r.objects.size(), 2u) << seed;
     objects += r.objects.size();
-    for (const FoundObject& found : r.objects) EXPECT_LT(found.confidence, 0.8) << seed << " " << found.object.category;
+    for (const FoundObject& found : r.objects) EXPECT_LT(found.confidence, 0.5) << seed << " " << found.object.category;
   }
   EXPECT_LE(objects, 4u);
 }
