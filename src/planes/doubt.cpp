@@ -78,6 +78,7 @@ Selection select_as_built(Patches& patches, const AngleSet& angles, const Space&
     selection = select_frames(patches, angles, space, local, context);
   }
   if (options.solver != local.solver) selection = select_frames(patches, angles, space, options, context);
+  state_bound(selection, context);
   share_out(patches, angles, space, options, context, selection);
   return selection;
 }

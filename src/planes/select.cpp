@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <future>
 #include <numeric>
 
 #include "planes/arrange.h"
@@ -241,9 +240,6 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
   }
   const auto started = std::chrono::steady_clock::now();
   std::size_t done = 0;
-  // Bounds only report: those of one round are sought while the next ones choose.
-  const std::launch beside = context.threads == 1 ? std::launch::deferred : std::launch::async;
-  std::vector<std::future<double>> bounds;
   for (const std::vector<int>& round : rounds_by_area(patches)) {
     context.progress(static_cast<double>(done) / patches.patches.size());
     done += round.size();
@@ -294,10 +290,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     s.after.irregularity += e.irregularity - among_fixed;
     s.after.smoothness += e.smoothness;
     s.bound -= among_fixed;
-    if (options.solver != "exact")
-      bounds.push_back(std::async(beside, [problem = std::move(problem), upper = e.total(), &context] {
-        return lower_bound(problem, upper, context);
-      }));
+    if (options.solver != "exact") s.unbounded.emplace_back(std::move(problem), e.total());
 
     std::vector<int> kept(frames.size(), -1);
     for (std::size_t k = 0; k < fixed; ++k) kept[k] = static_cast<int>(k);
@@ -311,8 +304,17 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
       s.local_of_patch[round[i]] = best_candidate(patches.patches[round[i]], s.frames[to], locals, patch_angle).local;
     }
   }
-  for (std::future<double>& bound : bounds) s.bound += bound.get();
   return s;
+}
+
+void state_bound(Selection& s, const Context& context) {
+  std::vector<double> bounds(s.unbounded.size());
+  parallel_blocks(context, bounds.size(), 1, [&](std::size_t i, std::size_t) {
+    const auto& [problem, energy] = s.unbounded[i];
+    bounds[i] = lower_bound(problem, energy, context);
+  });
+  s.bound = std::accumulate(bounds.begin(), bounds.end(), s.bound);
+  s.unbounded.clear();
 }
 
 void share_out(const Patches& patches, const AngleSet& angles, const Space& space, const Options& options, const Context& context, Selection& s) {

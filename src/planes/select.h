@@ -14,7 +14,8 @@ struct Selection {
   std::vector<int> frame_of_patch, local_of_patch;
   std::vector<OrientationFrame> proposed;  ///< for the largest patches
   Energy before, after;  ///< of every local fit kept, and of this selection
-  double bound = 0;      ///< no selection from the same candidates, round by round, has less energy
+  double bound = 0;      ///< no selection from the same candidates, round by round, has less energy; without what `unbounded` rounds add
+  std::vector<std::pair<SelectionProblem, double>> unbounded;  ///< rounds, and the energy that was found for them
   bool time_limit = false;
   bool local_fits = false;  ///< λ = 1: every patch keeps its own fit, related to no other
 };
@@ -44,6 +45,9 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
 /// smaller patches, and are not changed by them.
 Selection select_frames(const Patches& patches, const AngleSet& angles, const Space& space,
                         const Options& options, Context& context);
+
+/// Adds the lower bounds of the unbounded rounds to the selection's bound.
+void state_bound(Selection& selection, const Context& context);
 
 /// Orientations that much of a scene shares, of which the energy does not mind which frame has them: a proposed frame that suits much of
 /// the area is added, and patches whose own orientation does not differ go to the frame that can have the most area.

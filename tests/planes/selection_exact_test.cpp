@@ -13,15 +13,13 @@
 namespace unseen::planes {
 namespace {
 
-const Context kContext;
-
 void expect_near_optimum(const SelectionProblem& p, const std::string& what, double seconds) {
-  const Labels local = solve_local(p, kContext);
+  const Labels local = solve_local(p, test::kContext);
   const double energy = energy_of(p, local).total();
   EXPECT_NEAR(energy, test::energy_by_definition(p, local), 1e-9) << what;
-  const double bound = lower_bound(p, energy, kContext);
+  const double bound = lower_bound(p, energy, test::kContext);
   EXPECT_LE(bound, energy + 1e-9) << what;
-  const ExactSolution exact = solve_exact(p, local, seconds, kContext);
+  const ExactSolution exact = solve_exact(p, local, seconds, test::kContext);
   const double optimum = energy_of(p, exact.labels).total();
   EXPECT_LE(optimum, energy + 1e-9) << what;
   EXPECT_LE(bound, optimum + 1e-6) << what;
@@ -39,7 +37,7 @@ TEST(SolveExact, FindsTheOptimumFromAPoorStart) {
     }
     Labels start;
     for (int j = 0; j < p.patches(); ++j) start.push_back(p.frames() - p.patches() + j);
-    const ExactSolution exact = solve_exact(p, start, 20, kContext);
+    const ExactSolution exact = solve_exact(p, start, 20, test::kContext);
     ASSERT_TRUE(exact.proven);
     EXPECT_NEAR(energy_of(p, exact.labels).total(), exact.bound, 1e-5);
     double best = std::numeric_limits<double>::infinity();
@@ -119,7 +117,7 @@ TEST_P(RealisticProblems, AreSolvedWithinOnePercentOfCbc) {
   for (int j = 0; j < p.patches(); ++j) EXPECT_LT(p.data(j, p.frames() - p.patches() + j), 1e-9);
   Labels keep;
   for (int j = 0; j < p.patches(); ++j) keep.push_back(p.frames() - p.patches() + j);
-  EXPECT_LE(energy_of(p, solve_local(p, kContext)).total(), energy_of(p, keep).total() + 1e-9);
+  EXPECT_LE(energy_of(p, solve_local(p, test::kContext)).total(), energy_of(p, keep).total() + 1e-9);
   expect_near_optimum(p, GetParam().name + ", " + std::to_string(p.patches()) + " patches", 20);
 }
 
@@ -136,7 +134,8 @@ TEST(SelectFrames, StatesItsOwnEnergyAndBound) {
   for (const double lambda : {0.0, 0.2, 0.5, 0.8, 1.0}) {
     Options options;
     options.lambda = lambda;
-    const Selection s = select_frames(patches, angles, {}, options, context);
+    Selection s = select_frames(patches, angles, {}, options, context);
+    state_bound(s, context);
     // Differences of 10⁻⁸ a frame are no reason for the search to go on.
     EXPECT_LE(s.after.total(), s.before.total() + 1e-8 * static_cast<double>(patches.patches.size()))
         << lambda;
