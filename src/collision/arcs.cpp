@@ -18,7 +18,7 @@ constexpr double kGate = 3.5;           // σ
 constexpr double kAlike = 6.0;          // σ² between neighbours' looks
 constexpr int kMisses = 4;              // frames in a row
 constexpr double kFilled = 0.6;         // share of the seed's frames that must be on the curve
-constexpr std::size_t kFewest = 4;      // points
+constexpr std::size_t kFewestOfArc = 4;      // points
 constexpr double kLargestBend = 0.35;   // of the seed's length: more is no flight between neighbouring frames
 constexpr double kShared = 0.35;        // of its points that an arc may share with longer ones
 constexpr double kStep = 0.25;          // of the picture's span that something may move a frame
@@ -52,7 +52,7 @@ class Grower {
     extend(first + 2 * step + 1, 1);
     extend(first - 1, -1);
     if (points_.size() > kSmoothest) grow_again();
-    if (points_.size() < kFewest) return {};
+    if (points_.size() < kFewestOfArc) return {};
     Arc arc;
     for (const auto& [frame, point] : points_) arc.points.push_back(point);
     arc.curve = sums_.fit();

@@ -15,7 +15,7 @@ namespace {
 constexpr double kColorSpread = 22.0;   // grey levels
 constexpr double kSizeSpread = 0.22;    // of the logarithm of the diameter
 constexpr double kCap = 16.0;           // σ²
-constexpr std::size_t kMost = 30;       // candidates a frame, the largest
+constexpr std::size_t kMostCandidates = 30;       // candidates a frame, the largest
 constexpr double kLargestShare = 0.15;  // of the picture
 constexpr double kCaster = 0.3;         // of a shadow's area: what casts it has more
 
@@ -64,7 +64,7 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
   const std::vector<double> wholes = spheres ? whole_discs(footage) : std::vector<double>();
   for (std::size_t k = 0; k < footage.regions.size(); ++k) {
     if (footage.doubled[k]) continue;
-    for (std::size_t i = 0; i < footage.regions[k].size() && candidates[k].size() < kMost; ++i) {
+    for (std::size_t i = 0; i < footage.regions[k].size() && candidates[k].size() < kMostCandidates; ++i) {
       const Region& r = footage.regions[k][i];
       if (r.area > largest) continue;
       Candidate c;

@@ -18,7 +18,7 @@ constexpr double kEdge = 18.0;        // grey levels between the background's tw
 constexpr int kBreak = 2;             // points of the outline, in a row, that may be off the edge
 constexpr double kLeastChord = 0.35;  // of the bounding circle's diameter: less hides next to nothing
 constexpr double kStraight = 1.0;     // px, standard deviation about a line
-constexpr double kSmallest = 25.0;    // px, of the bounding circle: too small to tell
+constexpr double kSmallestCircle = 25.0;    // px, of the bounding circle: too small to tell
 
 /// How often each pixel of a decoded frame is moving, in frames.
 cv::Mat count_movers(const Footage& footage) {
@@ -123,7 +123,7 @@ void mark_covered(const Background& background, cv::Point corner, int scale, Foo
   parallel_blocks(context, runs.size(), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
       for (const Region& r : footage.regions[k])
-        runs[k].push_back(r.shadow || r.circle < kSmallest ? std::vector<cv::Point>() : edges.run_of(r));
+        runs[k].push_back(r.shadow || r.circle < kSmallestCircle ? std::vector<cv::Point>() : edges.run_of(r));
   });
   cv::Mat ends = cv::Mat::zeros(footage.height, footage.width, CV_16U), spread;  // in how many frames such a run passes
   for (const auto& frame : runs)

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kWhole = 0.9;         // share of the bounding circle: nothing is missing
 constexpr double kMissing = 0.94;      // share of the disc: more is as good without
-constexpr double kAlike = 1.08;        // ratio of diameters
+constexpr double kAlikeDiameters = 1.08;        // ratio of diameters
 constexpr int kFewestAlike = 3;
 constexpr int kDraws = 150;
 constexpr double kNear = 0.7, kNearShare = 0.01;  // px, and of the radius: on the circle
@@ -24,7 +24,7 @@ constexpr double kOn = 0.45;           // share of the outline that is on it
 constexpr double kOutside = 0.04;      // share of the outline that may be outside
 constexpr int kSectors = 36, kSeen = 11, kStray = 2;  // sectors of the circle; how many must be seen in a row, and at most elsewhere
 constexpr double kLargest = 2.5;       // times the bounding circle
-constexpr double kSmallest = 20.0;     // px: too small to tell
+constexpr double kSmallestDisc = 20.0;     // px: too small to tell
 
 struct Circle {
   Vec2 center = Vec2::Zero();
@@ -119,18 +119,18 @@ bool holds(const std::vector<Vec2>& outline, const Circle& circle) {
 }
 
 bool known_size(double diameter, const std::vector<double>& wholes) {
-  const auto from = std::lower_bound(wholes.begin(), wholes.end(), diameter / kAlike), to = std::upper_bound(wholes.begin(), wholes.end(), diameter * kAlike);
+  const auto from = std::lower_bound(wholes.begin(), wholes.end(), diameter / kAlikeDiameters), to = std::upper_bound(wholes.begin(), wholes.end(), diameter * kAlikeDiameters);
   return to - from >= kFewestAlike;
 }
 
 }  // namespace
 
 bool is_disc(const Region& region) {
-  return region.circle >= kSmallest && !region.at_border && region.area > kWhole * 0.25 * kPi * region.circle * region.circle;
+  return region.circle >= kSmallestDisc && !region.at_border && region.area > kWhole * 0.25 * kPi * region.circle * region.circle;
 }
 
 std::optional<Disc> covered_disc(const Region& region, const std::vector<double>& wholes) {
-  if (region.circle < kSmallest || region.mask.empty() || region.at_border || wholes.empty()) return std::nullopt;
+  if (region.circle < kSmallestDisc || region.mask.empty() || region.at_border || wholes.empty()) return std::nullopt;
   const std::vector<Vec2> outline = outline_of(region);
   if (outline.size() < 16) return std::nullopt;
   const double largest = kLargest * region.circle;

@@ -15,7 +15,7 @@ constexpr double kLow = 3.5, kLeastLow = 9.0;  // σ and grey levels
 constexpr double kHigh = 2.0;                  // times the low threshold: what a part must reach somewhere
 constexpr double kSeedShare = 0.04;            // of a part's pixels, and
 constexpr int kFewestSeeds = 5;                // pixels above the high threshold
-constexpr double kSmallest = 20.0;             // px
+constexpr double kSmallestRegion = 20.0;             // px
 constexpr double kSmallestShare = 1e-5;        // of the picture
 constexpr double kLargestShare = 0.3;           // of the picture that a part's box may fill to be looked at more closely
 constexpr double kCore = 0.15;                 // share of a part that must be left when its shadow is cut off
@@ -128,7 +128,7 @@ std::vector<Part> find_parts(const cv::Mat& frame, const Background& background,
   low.convertTo(high, CV_8U, kHigh);
   const cv::Mat seeds = d > high;
   const int count = cv::connectedComponentsWithStats(above, labels, stats, centers, 8, CV_32S);
-  const double smallest = std::max(kSmallest, kSmallestShare * static_cast<double>(frame.total()));
+  const double smallest = std::max(kSmallestRegion, kSmallestShare * static_cast<double>(frame.total()));
   std::vector<Part> parts;
   for (int i = 1; i < count; ++i) {
     const int area = stats.at<int>(i, cv::CC_STAT_AREA);

@@ -11,19 +11,19 @@
 namespace unseen::collision {
 namespace {
 
-constexpr int kViews = 512, kTurns = 32;
+constexpr int kViewsTried = 512, kTurns = 32;
 constexpr double kApart = 0.35;    // rad, of starts
 constexpr double kSame = 0.1;      // rad, of minima
-constexpr int kSteps = 6;
+constexpr int kRefinements = 6;
 
 /// The grid by support functions: a turn about the view ray shifts the directions, so one projection serves kTurns orientations.
 std::vector<PoseCandidate> on_grid(const SpinBody& body, const Camera& camera, const Look& look) {
   static_assert(kTurns == kDirections);
-  const std::vector<Quat> grid = rotation_grid(kViews, kTurns);
+  const std::vector<Quat> grid = rotation_grid(kViewsTried, kTurns);
   const Quat to_ray = Quat::FromTwoVectors(Vec3::UnitZ(), look.center);
   Eigen::Matrix<double, kDirections, kTurns> turned;
   std::vector<PoseCandidate> all(grid.size());
-  for (int v = 0; v < kViews; ++v) {
+  for (int v = 0; v < kViewsTried; ++v) {
     const Quat& first = grid[static_cast<std::size_t>(v * kTurns)];
     const Support h = support_of(projected(body.corners, to_ray * first, look.center, camera), look.pixel);
     for (int t = 0; t < kTurns; ++t) {
@@ -45,7 +45,7 @@ PoseCandidate refined_pose(const SpinBody& body, const Camera& camera, const Loo
   Quat q = start;
   Support r = silhouette_residual(body, camera, look, q);
   double cost = r.squaredNorm(), damping = 1e-2;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kRefinements; ++step) {
     Eigen::Matrix<double, kDirections, 3> jacobian;
     for (int i = 0; i < 3; ++i)
       jacobian.col(i) = (silhouette_residual(body, camera, look, rotation_by<double>(kStep * Vec3::Unit(i)) * q) - r) / kStep;

@@ -22,7 +22,7 @@ constexpr double kWithin = 0.5;                // share of a shadow inside the h
 constexpr double kWhole = 0.85;                 // share of a part that makes it a shadow
 constexpr double kColored = 4.0;               // grey levels off a neutral tone: less is no colour to go by
 constexpr int kWindow = 9;                     // px, of the light that texture is seen against
-constexpr int kFewest = 60;                    // px that tell of texture
+constexpr int kFewestPixels = 60;                    // px that tell of texture
 constexpr double kTextured = 1.0;              // grey levels: weaker texture tells nothing
 constexpr double kSeen = 0.5;                  // of the texture: shadow or body
 constexpr double kUnseen = 0.3;                // of the texture, at most, on a body
@@ -155,7 +155,7 @@ Texture texture_in(const cv::Mat& frame, const cv::Mat& background, const cv::Ma
   cv::Mat f, b, inside, weight;
   cv::erode(mask, inside, disc(7), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   const int n = cv::countNonZero(inside);
-  if (n < kFewest) return texture;
+  if (n < kFewestPixels) return texture;
   cv::cvtColor(frame, f, cv::COLOR_BGR2GRAY);
   cv::cvtColor(background, b, cv::COLOR_BGR2GRAY);
   f.convertTo(f, CV_32F);

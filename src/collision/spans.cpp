@@ -9,7 +9,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr int kFewest = 4;           // points
+constexpr int kFewestOfSpan = 4;           // points
 constexpr int kLongest = 900;        // points
 constexpr double kSkip = 12.0;       // σ², of a frame that belongs to no flight
 constexpr double kNew = 24.0;        // σ², of another flight
@@ -20,18 +20,18 @@ constexpr double kShowsClearly = 8.0;  // σ, sagitta of a flight to take a grav
 constexpr double kSignificant = 8.0;  // σ of the curvature
 constexpr double kAgrees = 0.12;     // of the gravity
 constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
-constexpr double kOddSize = 0.15;    // off the flight's typical diameter: an impact's blur, a shadow, a part
+constexpr double kOddSizeOfSpan = 0.15;    // off the flight's typical diameter: an impact's blur, a shadow, a part
 constexpr int kForeseeing = 7;       // points next to it that foresee it
 constexpr int kTrimmed = 12;         // points that may come off an end
 constexpr double kWorstFit = 6.0;    // χ² a degree of freedom
-constexpr double kModel = 0.003;     // of a flight's length: what a parabola leaves of drag and perspective
+constexpr double kFlightModel = 0.003;     // of a flight's length: what a parabola leaves of drag and perspective
 
 double sagitta(double curvature, double duration) { return 0.125 * curvature * duration * duration; }
 
 /// Variance of a point about a flight's parabola, px².
 double variance_of(const Curve& curve, double begin, double end, double noise) {
   const double length = 0.5 * (curve.velocity_at(begin).norm() + curve.velocity_at(end).norm()) * (end - begin);
-  return noise * noise + kModel * kModel * length * length;
+  return noise * noise + kFlightModel * kFlightModel * length * length;
 }
 
 /// True if a flight under that gravity is told from a straight line, as something held, rolling or at rest moves.
@@ -66,12 +66,12 @@ std::vector<Stretch> split_into_flights(const std::vector<Candidate>& track, dou
     CurveSums sums(track[begin].u);
     for (int end = begin + 1; end <= std::min(count, begin + kLongest); ++end) {
       sums.add(track[end - 1].u, track[end - 1].pixel);
-      if (end - begin < kFewest) continue;
+      if (end - begin < kFewestOfSpan) continue;
       if (gravity && !shows(sums.fit(), expected, noise)) continue;
       const Curve curve = sums.fit(expected, weight);
       const double total = cost[begin] + kNew + curve.squares / variance_of(curve, track[begin].u, track[end - 1].u, noise);
       if (total - cost[begin] > kNew + kSkip * (end - begin)) {
-        if (end - begin > 2 * kFewest) break;  // longer ones do not get better
+        if (end - begin > 2 * kFewestOfSpan) break;  // longer ones do not get better
         continue;
       }
       if (total < cost[end]) {
@@ -82,7 +82,7 @@ std::vector<Stretch> split_into_flights(const std::vector<Candidate>& track, dou
   }
   std::vector<Stretch> flights;
   for (int end = count; end > 0; end = from[end])
-    if (end - from[end] >= kFewest) flights.push_back({from[end], end, fit_of(track, from[end], end)});
+    if (end - from[end] >= kFewestOfSpan) flights.push_back({from[end], end, fit_of(track, from[end], end)});
   std::reverse(flights.begin(), flights.end());
   return flights;
 }
@@ -117,7 +117,7 @@ std::optional<ImageGravity> shared_gravity(const std::vector<Stretch>& flights, 
 }
 
 void trim(const std::vector<Candidate>& track, double noise, Stretch& flight) {
-  const int count = flight.end - flight.begin, reach = std::min(kTrimmed, count - kFewest - 1);
+  const int count = flight.end - flight.begin, reach = std::min(kTrimmed, count - kFewestOfSpan - 1);
   const auto surprise = [&](int begin, int end, const Candidate& c) {
     const Curve rest = fit_of(track, begin, end);
     const double sigma = std::max(noise, std::sqrt(rest.squares / std::max(1.0, 2.0 * rest.count - 6.0)));
@@ -125,15 +125,15 @@ void trim(const std::vector<Candidate>& track, double noise, Stretch& flight) {
   };
   int begin = flight.begin, end = flight.end;
   const double typical = typical_diameter({track.begin() + begin, track.begin() + end});
-  const auto odd = [&](const Candidate& c) { return c.diameter > 0.0 && std::abs(c.diameter - typical) > kOddSize * typical; };
-  while (end - begin > kFewest && odd(track[begin]) && !odd(track[begin + 1])) ++begin;
-  while (end - begin > kFewest && odd(track[end - 1]) && !odd(track[end - 2])) --end;
+  const auto odd = [&](const Candidate& c) { return c.diameter > 0.0 && std::abs(c.diameter - typical) > kOddSizeOfSpan * typical; };
+  while (end - begin > kFewestOfSpan && odd(track[begin]) && !odd(track[begin + 1])) ++begin;
+  while (end - begin > kFewestOfSpan && odd(track[end - 1]) && !odd(track[end - 2])) --end;
   for (int i = begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
     if (surprise(i + 1, std::min(end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
   const int last = end;
   for (int i = last - 1; i >= last - reach; --i)
-    if (surprise(std::max(begin, i - kForeseeing), i, track[i]) > kForeseen && i - begin >= kFewest) end = i;
-  if (end - begin >= kFewest) {
+    if (surprise(std::max(begin, i - kForeseeing), i, track[i]) > kForeseen && i - begin >= kFewestOfSpan) end = i;
+  if (end - begin >= kFewestOfSpan) {
     flight.begin = begin;
     flight.end = end;
   }

@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kTurnings = 10;     // followed up a flight
 constexpr std::size_t kRefined = 6;       // of those, by colours too
 constexpr std::size_t kPoints = 400;      // of a surface
-constexpr double kIndependent = 10.0;     // directions of a silhouette
-constexpr double kModel = 0.03;           // rad: what outlines that are cut wrongly do to a whole motion
+constexpr double kIndependentDirections = 10.0;     // directions of a silhouette
+constexpr double kOutlineError = 0.03;           // rad: what outlines that are cut wrongly do to a whole motion
 constexpr double kVaguest = 0.5;          // rad, of an orientation as an observation
 
 bool has_spin(const Body& body) { return body.shape == Shape::box || body.shape == Shape::mesh; }
@@ -43,7 +43,7 @@ void add_colors(SpinFlight& flight, const SpinBody& body, const std::vector<Surf
 void search(SpinFlight& flight, const SpinBody& body, const std::vector<SurfacePoint>& points, const Camera& camera) {
   flight.turnings = find_turnings(body, camera, flight.looks, kTurnings);
   if (flight.turnings.empty()) return;
-  const double freedom = std::max(1.0, kIndependent * static_cast<double>(flight.looks.size()) - 6.0);
+  const double freedom = std::max(1.0, kIndependentDirections * static_cast<double>(flight.looks.size()) - 6.0);
   flight.noise = std::sqrt(std::max(1.0, flight.turnings.front().cost / freedom));
   add_colors(flight, body, points, camera);
   for (Turning& t : flight.turnings) t = refined_by_colors(t, body, camera, flight.looks, points, flight.noise);
@@ -86,7 +86,7 @@ Spin spin_of(const SpinFlight& flight, std::size_t index, const SpinBody& body, 
   // the orientations come from one motion of six numbers: together they are to weigh as much as those
   const double shared = std::sqrt(0.5 * static_cast<double>(all.size()));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double time = flight.looks[i].time, sigma = shared * std::hypot(kModel, uncertainty(turning, body, flight.noise, time));
+    const double time = flight.looks[i].time, sigma = shared * std::hypot(kOutlineError, uncertainty(turning, body, flight.noise, time));
     spin.orientations.push_back({body_index, time, all[i] * to_principal, std::min(sigma, kVaguest)});
   }
   return spin;

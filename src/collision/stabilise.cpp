@@ -15,7 +15,7 @@ constexpr int kCorners = 150;
 constexpr double kQuality = 0.01, kSpacing = 8.0;
 constexpr double kInlier = 0.7;       // px
 constexpr double kAgreeing = 0.6;     // share of the corners
-constexpr int kFewest = 15;           // corners
+constexpr int kFewestCorners = 15;           // corners
 constexpr double kSpread = 0.35;      // of the picture's width and height that the corners must span
 constexpr double kStill = 0.35;       // px, of a corner of the picture
 constexpr double kGain = 0.85;        // of the difference from the first frame that undoing the motion may leave
@@ -52,7 +52,7 @@ void Stabiliser::add(const cv::Mat& gray, bool usable) {
     return;
   }
   cv::Mat shift = shifts_.empty() ? identity() : shifts_.back();
-  if (usable && static_cast<int>(corners_.size()) >= kFewest) {
+  if (usable && static_cast<int>(corners_.size()) >= kFewestCorners) {
     ++tried_;
     const cv::Mat found = register_frame(gray);
     if (found.empty()) ++lost_; else shift = found;
@@ -78,10 +78,10 @@ cv::Mat Stabiliser::register_frame(const cv::Mat& gray) {
       from.push_back(now[i]);
       to.push_back(corners_[i]);
     }
-  if (static_cast<int>(from.size()) < kFewest) return {};
+  if (static_cast<int>(from.size()) < kFewestCorners) return {};
   const cv::Mat shift = cv::estimateAffinePartial2D(from, to, inlier, cv::RANSAC, kInlier);
   const int count = static_cast<int>(std::count(inlier.begin(), inlier.end(), 1));
-  if (shift.empty() || count < kFewest || count < kAgreeing * static_cast<double>(corners_.size()) || !spread(to, inlier, gray.size())) return {};
+  if (shift.empty() || count < kFewestCorners || count < kAgreeing * static_cast<double>(corners_.size()) || !spread(to, inlier, gray.size())) return {};
   cv::Mat back;
   cv::invertAffineTransform(shift, back);
   cv::transform(corners_, places_, back);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kShortestStep = 1.0 / 9600;  // s: a body at 5 m/s goes half a millimetre
 constexpr double kSameImpact = 1e-3;          // s: contacts of a pair in quicker succession are one impact, with the values of the hardest
-constexpr double kSlowest = 0.05;             // m/s: slower contacts are no impacts
+constexpr double kSlowestImpact = 0.05;             // m/s: slower contacts are no impacts
 constexpr double kAtRest = 0.02;              // m/s: slower contacts do not bounce
 constexpr double kSameTime = 2e-5;            // s: what an animation tells apart
 
@@ -243,7 +243,7 @@ class Simulation {
     Last& last = last_[pair];
     last.time = now.time;
     if (again && (last.impact < 0 || contact.impulse <= last.impulse)) return false;
-    if (-u_before < kSlowest) {
+    if (-u_before < kSlowestImpact) {
       if (!again) last.impact = -1;
       return false;
     }

@@ -12,10 +12,10 @@ namespace unseen::collision {
 namespace {
 
 constexpr int kSide = 4;             // points on either side that are looked at, at most
-constexpr int kFewest = 6;           // points in all; with a gravity one less, and two on one side will do
+constexpr int kFewestOfGap = 6;           // points in all; with a gravity one less, and two on one side will do
 constexpr int kMostMissing = 2;      // frames
 constexpr double kFits = 4.0;        // χ² a degree of freedom, of a fit that counts
-constexpr double kModel = 0.02;      // of a step: what a parabola leaves of drag and perspective
+constexpr double kStepModel = 0.02;      // of a step: what a parabola leaves of drag and perspective
 constexpr double kBetter = 6.0;      // times smaller must the sum of squares get, and
 constexpr double kClearly = 30.0;    // σ²
 constexpr double kAlmost = 8.0;      // σ²: no worse than without the gap
@@ -28,7 +28,7 @@ class Place {
   Place(const std::vector<Candidate>& track, int at, int before, int after, double noise, const std::optional<ImageGravity>& gravity)
       : track_(track), at_(at), first_(at - before), last_(at + after - 1), gravity_(gravity) {
     const double step = usable() ? (track[at].pixel - track[at - 1].pixel).norm() : 0.0;
-    variance_ = noise * noise + kModel * kModel * step * step;
+    variance_ = noise * noise + kStepModel * kStepModel * step * step;
   }
 
   bool usable() const {
@@ -53,7 +53,7 @@ class Place {
 /// Calls `use` with the places before `at` that have enough points around, most points first, until it returns true.
 template <class Use>
 void for_each_place(const std::vector<Candidate>& track, int at, double noise, const std::optional<ImageGravity>& gravity, Use use) {
-  for (int sum = 2 * kSide; sum >= (gravity ? kFewest - 1 : kFewest); --sum)
+  for (int sum = 2 * kSide; sum >= (gravity ? kFewestOfGap - 1 : kFewestOfGap); --sum)
     for (int before = std::min(kSide, sum - 2); before >= std::max(2, sum - kSide); --before) {
       if (!gravity && (before < 3 || sum - before < 3)) continue;
       const Place place(track, at, before, sum - before, noise, gravity);

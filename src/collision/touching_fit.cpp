@@ -10,7 +10,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr int kFlight = LinearFlight::kUnknowns;
-constexpr int kP = 0, kVa = 3, kVb = 6, kJ = 9, kDelay = 12, kInverse = 13, kAll = 14;  // place of a, velocities before, impulse, delay, 1/m
+constexpr int kPlace = 0, kVa = 3, kVb = 6, kJ = 9, kDelay = 12, kInverse = 13, kAll = 14;  // place of a, velocities before, impulse, delay, 1/m
 using Vector = Eigen::Matrix<double, kAll, 1>;
 using Matrix = Eigen::Matrix<double, kAll, kAll>;
 using Map = Eigen::Matrix<double, kFlight, kAll>;
@@ -55,12 +55,12 @@ TouchingFit::Result TouchingFit::operator()(const Touching& touching, const Turn
   const Mat3 across = Mat3::Identity() - touching.normal * touching.normal.transpose();
   const Mat3 arm_a = cross_matrix(touching.arm_a), arm_b = cross_matrix(touching.arm_b);
   Map to_a = Map::Zero(), to_b = Map::Zero();
-  to_a.block<3, 3>(0, kP).setIdentity();
+  to_a.block<3, 3>(0, kPlace).setIdentity();
   to_a.block<3, 3>(3, kVa).setIdentity();
   to_a.block<3, 3>(6, kVa).setIdentity();
   to_a.block<3, 3>(6, kJ).setIdentity();
   to_a(9, kDelay) = 1.0;
-  to_b.block<3, 3>(0, kP).setIdentity();
+  to_b.block<3, 3>(0, kPlace).setIdentity();
   to_b.block<3, 3>(3, kVb).setIdentity();
   to_b.block<3, 3>(6, kVb).setIdentity();
   to_b(9, kDelay) = 1.0;
@@ -92,7 +92,7 @@ TouchingFit::Result TouchingFit::operator()(const Touching& touching, const Turn
   }
   Result result;
   State& s = result.state = base_;
-  s.p = {z.segment<3>(kP), z.segment<3>(kP) - touching.offset};
+  s.p = {z.segment<3>(kPlace), z.segment<3>(kPlace) - touching.offset};
   s.v = {z.segment<3>(kVa), z.segment<3>(kVb)};
   s.impulse = impulse;
   s.mass_ratio = 1.0 / inverse;
@@ -105,7 +105,7 @@ TouchingFit::Result TouchingFit::operator()(const Touching& touching, const Turn
   s.x = s.p[0] + touching.arm_a;
 
   Eigen::Matrix<double, kFlight, 1> y_a, y_b;
-  y_a << z.segment<3>(kP), z.segment<3>(kVa), z.segment<3>(kVa) + impulse, z[kDelay];
+  y_a << z.segment<3>(kPlace), z.segment<3>(kVa), z.segment<3>(kVa) + impulse, z[kDelay];
   y_b << s.p[1], z.segment<3>(kVb), z.segment<3>(kVb) - inverse * impulse, z[kDelay];
   const Vec3 off_a = arm_a * impulse - turn_a.change, off_b = -inverse * (arm_b * impulse) - turn_b.change;
   const double slid = (across * impulse).norm() / (kFriction * std::max(1e-6, impulse.norm()));

@@ -13,15 +13,15 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kUnlike = 15.9;       // σ² between the looks of two pieces of a flight
-constexpr double kSameTime = 2.5;      // frame times that the impact may move when its flights are settled
+constexpr double kUnlikePieces = 15.9;       // σ² between the looks of two pieces of a flight
+constexpr double kSettled = 2.5;      // frame times that the impact may move when its flights are settled
 constexpr std::size_t kMostArcs = 60;
 constexpr double kGate = 3.5;          // σ, of points that are assigned to a flight
 constexpr double kOverlap = 3.0;       // frame times that two pieces of one flight may share
 constexpr double kAstray = 0.5;        // diameters that the second may begin off where the first leads
 constexpr double kOneFlight = 1.2;     // times the noise, about one parabola through both
 constexpr std::size_t kAbout = 8;      // points to either side that tell the usual size
-constexpr double kOddSize = 0.03, kOddSigmas = 6.0;  // of the logarithm of the size, or σ of its spread
+constexpr double kOddLogSize = 0.03, kOddSigmas = 6.0;  // of the logarithm of the size, or σ of its spread
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
 /// The arc with those points of another that are outside its time.
@@ -42,7 +42,7 @@ double continues(const Arc& arc, const Arc& other, double noise) {
   constexpr double kNo = 1e9;
   const bool later = other.begin() > arc.begin();
   const double overlap = later ? arc.end() - other.begin() : other.end() - arc.begin();
-  if (overlap > kOverlap || unlikeness(looks_of(arc), looks_of(other)) > kUnlike) return kNo;
+  if (overlap > kOverlap || unlikeness(looks_of(arc), looks_of(other)) > kUnlikePieces) return kNo;
   const Candidate& end = later ? other.points.front() : other.points.back();
   const double away = (end.pixel - arc.curve.at(end.u)).norm(), diameter = typical_diameter(arc.points);
   if (diameter > 0.0 && away > kAstray * diameter) return kNo;
@@ -81,7 +81,7 @@ std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points) {
   std::vector<double> sorted = off;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
-  const double odd = std::max(kOddSize, kOddSigmas * 1.4826 * *middle);
+  const double odd = std::max(kOddLogSize, kOddSigmas * 1.4826 * *middle);
   std::vector<Candidate> usual;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (off[i] <= odd) usual.push_back(points[i]);
@@ -167,7 +167,7 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
   finish(candidates, flights, tracks);
   const auto link = [&](std::size_t o) { return link_of({flights[o], {}, 0}, {flights[o + 2], {}, 0}, noise); };
   double u = common_time(link(0), link(1), noise);
-  if (!(std::abs(u - best.u) < kSameTime)) u = best.u;
+  if (!(std::abs(u - best.u) < kSettled)) u = best.u;
   tracks.meetings.push_back({u / fps, {0, 1}, {2, 3}});
   tracks.collisions_seen = count_collisions(found, used);
   return tracks;

@@ -14,7 +14,7 @@ const double kAlignedCosine = std::cos(radians(8.0));
 const double kLeastLean = radians(2.0), kMostLean = radians(15.0);
 const double kFaceCosine = std::cos(radians(20.0));
 constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
-constexpr double kSigmas = 4.0;             // standard errors: what leans by less is level
+constexpr double kLeanSigmas = 4.0;             // standard errors: what leans by less is level
 constexpr double kEnoughExplained = 0.6, kClearlyMore = 0.2;  // shares of the points, for axes that are not level
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
@@ -119,7 +119,7 @@ Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const
   const double lean = std::acos(std::clamp(level.dot(n), -1.0, 1.0));
   if (lean < kLeastLean || lean > kMostLean) return axes;
   const Vec3 along = (level - level.dot(n) * n).normalized();
-  if (lean < kSigmas * direction_error(seen, *largest, along)) return axes;
+  if (lean < kLeanSigmas * direction_error(seen, *largest, along)) return axes;
   return Eigen::Quaterniond::FromTwoVectors(level, n).toRotationMatrix() * axes;
 }
 

@@ -11,8 +11,8 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr int kFewestFacePoints = 24;
-constexpr double kSigmas = 3.0;
+constexpr int kFewestPointsOfSide = 24;
+constexpr double kVoxelSigmas = 3.0;
 constexpr double kFinestVoxel = 0.005;  // of the radius of the objects
 constexpr double kFarthest = 100.0;     // m
 
@@ -60,7 +60,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
   std::vector<int> group(seen.points.size(), -1);
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (const int i : parts[k].points) group[i] = static_cast<int>(k);
-  const Faces faces = grow_faces(seen.points, seen.graph, group, seen.T_world_camera.translation, kFewestFacePoints);
+  const Faces faces = grow_faces(seen.points, seen.graph, group, seen.T_world_camera.translation, kFewestPointsOfSide);
   std::vector<std::vector<const Face*>> faces_of(parts.size());
   for (const Face& face : faces.faces) faces_of[group[face.points.front()]].push_back(&face);
 
@@ -89,7 +89,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];
-    const double voxel = std::max(kSigmas * mean_sigma(seen, part.points), finest);
+    const double voxel = std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest);
     const Mat3 axes = box_axes(seen, part.points, faces_of[k], part.free_orientation);
     const OrientedBox box = bound(seen, part.points, faces_of[k], axes, voxel);
     const OrientedBox standing = set_down(seen, part.points, box);

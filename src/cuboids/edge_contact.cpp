@@ -11,7 +11,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kParallel = 1e-3;  // sine
-constexpr double kShare = 0.25;     // of an edge that is contact enough, however short the edge
+constexpr double kShareOfEdge = 0.25;     // of an edge that is contact enough, however short the edge
 constexpr double kFacing = 2.0;  // tolerances that faces which face each other may part by over their width
 constexpr double kRounding = 1e-9;
 
@@ -55,7 +55,7 @@ std::optional<Common> common_part(const ConvexSolid& a, const Edge& ea, const Co
   }
   const double length = u.norm(), start = (q - p).dot(u) / length, other = v.dot(u) / length;
   const double low = std::max(0.0, start), high = std::min(length, start + other);
-  if (high - low < std::min(tolerance, kShare * std::min(length, other)) || high <= low) return std::nullopt;
+  if (high - low < std::min(tolerance, kShareOfEdge * std::min(length, other)) || high <= low) return std::nullopt;
   Common common;
   for (int i = 0; i < 2; ++i) {
     const double at = i == 0 ? low : high;

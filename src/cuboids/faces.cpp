@@ -9,7 +9,7 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kSigmas = 3.0;
+constexpr double kFaceSigmas = 3.0;
 const double kGrowCosine = std::cos(radians(22.0));  // normals of neighbours; their error is some 3–8°
 constexpr double kFirstFit = 12;                     // points, at least
 constexpr int kBuckets = 64;
@@ -103,7 +103,7 @@ Faces grow_faces(std::span<const Vec3> points, const PointGraph& graph, std::spa
       for (const int j : graph.neighbours(i)) {
         if (face_of[j] >= 0 || group[j] != group[seed]) continue;
         if (graph.normals[j].dot(face.plane.normal) < kGrowCosine) continue;
-        if (std::abs(face.plane.signed_distance(points[j])) > kSigmas * graph.sigma[j]) continue;
+        if (std::abs(face.plane.signed_distance(points[j])) > kFaceSigmas * graph.sigma[j]) continue;
         face_of[j] = id;
         face.points.push_back(j);
       }
@@ -121,7 +121,7 @@ Faces grow_faces(std::span<const Vec3> points, const PointGraph& graph, std::spa
     for (std::size_t at = 0; at < face.points.size(); ++at)
       for (const int j : graph.neighbours(face.points[at])) {
         if (face_of[j] >= 0 || group[j] != group[face.points[at]]) continue;
-        if (std::abs(face.plane.signed_distance(points[j])) > kSigmas * graph.sigma[j]) continue;
+        if (std::abs(face.plane.signed_distance(points[j])) > kFaceSigmas * graph.sigma[j]) continue;
         face_of[j] = static_cast<int>(f);
         face.points.push_back(j);
       }

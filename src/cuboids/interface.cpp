@@ -14,7 +14,7 @@ namespace {
 constexpr double kBand = 2.0;          // tolerances: how much farther than the nearest point a contact may be
 constexpr double kAskew = 0.34202014;  // sin 20°: more than that is no face on a face
 constexpr double kNarrow = 0.05;       // of the face's width
-constexpr double kShare = 0.25;        // of a face's width that is contact enough, however thin the face
+constexpr double kShareOfFace = 0.25;        // of a face's width that is contact enough, however thin the face
 constexpr std::size_t kMostPoints = 8;
 
 /// A face, or a support, that another body may lie on: its outward plane and the planes around it.
@@ -94,7 +94,7 @@ std::optional<Interface> rest(const Seat& seat, const ConvexSolid& body, double 
   std::vector<Vec3> common = whole;
   for (const Plane& side : seat.sides) common = clip(common, side);
   if (common.size() < 3) return std::nullopt;
-  const double enough = std::min(tolerance, kShare * std::min(seat.width, face_width));
+  const double enough = std::min(tolerance, kShareOfFace * std::min(seat.width, face_width));
   if (width_of(common, body.planes[face].normal) < enough) return std::nullopt;
 
   double low = INFINITY, high = -INFINITY;

@@ -16,8 +16,8 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kFewestFacePoints = 30;
-constexpr std::size_t kFewestPoints = 80;     // of an object
-constexpr double kSmallestShare = 0.003;        // of the points of all objects, where nobody says what an object is
+constexpr std::size_t kFewestObjectPoints = 80;     // of an object
+constexpr double kSmallestObject = 0.003;        // of the points of all objects, where nobody says what an object is
 constexpr std::size_t kFewPoints = 500;         // so few may be a strip along an edge
 constexpr double kStrip = 8.0;                 // widths, in spacing
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
@@ -189,7 +189,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   std::size_t debris = 0;
   std::vector<std::vector<int>> pieces = components(seen, object);
   const std::size_t total = std::accumulate(pieces.begin(), pieces.end(), std::size_t{0}, [](std::size_t n, const auto& p) { return n + p.size(); });
-  const std::size_t fewest = std::max(kFewestPoints, masked || drawn ? 0 : static_cast<std::size_t>(kSmallestShare * static_cast<double>(total)));
+  const std::size_t fewest = std::max(kFewestObjectPoints, masked || drawn ? 0 : static_cast<std::size_t>(kSmallestObject * static_cast<double>(total)));
   for (std::vector<int>& points : pieces) {
     if (is_debris(seen, points, fewest)) {
       ++debris;

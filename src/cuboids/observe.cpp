@@ -12,19 +12,19 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kLeastUnmasked = 0.02;  // of the points, on flat regions that no mask names
-constexpr double kSigmas = 3.0;
+constexpr double kSupportSigmas = 3.0;
 constexpr double kFarthest = 100.0;       // m; nothing measures depth so far indoors: wrong units
-constexpr std::size_t kFewestPoints = 200;
-constexpr int kFewestFacePoints = 60;
+constexpr std::size_t kFewestDepths = 200;
+constexpr int kFewestSupportPoints = 60;
 constexpr double kFirstWidth = 3.0;  // σ, of a piece of support that has a normal of its own; objects have no room for it
 const double kFlatCosine = std::cos(radians(35.0));
 const double kSameUp = std::cos(radians(5.0)), kNearVertical = std::cos(radians(5.0));
 
 void check_frame(const RgbdFrame& frame) {
   if (frame.is_fused()) {
-    if (frame.cloud.positions.size() < kFewestPoints)
+    if (frame.cloud.positions.size() < kFewestDepths)
       throw InputError(frame.name, "cloud", fmt::format("{} points", frame.cloud.size()),
-                       fmt::format("at least {}", kFewestPoints));
+                       fmt::format("at least {}", kFewestDepths));
     return;
   }
   const Camera& c = frame.camera;
@@ -43,9 +43,9 @@ void check_frame(const RgbdFrame& frame) {
 
 void check_points(const RgbdFrame& frame, const Measured& measured) {
   const char* field = frame.is_fused() ? "cloud" : "depth";
-  if (measured.points.size() < kFewestPoints)
+  if (measured.points.size() < kFewestDepths)
     throw InputError(frame.name, field, fmt::format("{} valid measurements", measured.points.size()),
-                     fmt::format("at least {}", kFewestPoints));
+                     fmt::format("at least {}", kFewestDepths));
   std::vector<double> depth;
   for (std::size_t i = 0; i < measured.points.size(); i += 11) depth.push_back(measured.points[i].norm());
   const auto middle = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() / 2);
@@ -83,7 +83,7 @@ FoundSupports given_supports(const RgbdFrame& frame, const Scan& scan) {
       const Face& face = scan.faces.faces[f];
       if (face.plane.normal.dot(found.supports[s].plane.normal) > kFlatCosine &&
           std::abs(found.supports[s].plane.signed_distance(face.center)) <
-              kSigmas * scan.graph.sigma[face.points.front()] + 0.003)
+              kSupportSigmas * scan.graph.sigma[face.points.front()] + 0.003)
         found.points.back().insert(found.points.back().end(), face.points.begin(), face.points.end());
     }
   }
@@ -115,7 +115,7 @@ std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
     for (std::size_t s = 0; s < found.supports.size(); ++s) {
       const Plane& plane = found.supports[s].plane;
       const double slant = std::abs(plane.normal.dot(p)) / (scan.is_image ? p.z() : p.norm());
-      const double reach = kSigmas * scan.graph.sigma[i] * std::clamp(slant, 0.3, 1.0);
+      const double reach = kSupportSigmas * scan.graph.sigma[i] * std::clamp(slant, 0.3, 1.0);
       const double distance = std::abs(plane.signed_distance(p)), turned = plane.normal.dot(scan.graph.normals[i]);
       const bool on = distance < 0.5 * reach || (distance < 1.5 * reach && turned > kFlatCosine);
       if (support[i] < 0 && on) support[i] = static_cast<int>(s);
@@ -128,7 +128,7 @@ std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
 /// Flat regions that may be supports: what no mask names, unless that is next to nothing.
 Faces faces_of_supports(const RgbdFrame& frame, const Measured& measured, const PointGraph& graph) {
   std::vector<int> group(measured.points.size(), 0);
-  const auto grown = [&] { return grow_faces(measured.points, graph, group, Vec3::Zero(), kFewestFacePoints, kFirstWidth); };
+  const auto grown = [&] { return grow_faces(measured.points, graph, group, Vec3::Zero(), kFewestSupportPoints, kFirstWidth); };
   if (!frame.masks.empty() && !frame.is_fused()) {
     for (std::size_t i = 0; i < group.size(); ++i) group[i] = frame.masks[measured.pixel_of_point[i]] > 0 ? -1 : 0;
     Faces faces = grown();

@@ -13,7 +13,7 @@ constexpr double kSeenShrink = 0.15, kHiddenShrink = 0.5;  // of a size: what a 
 constexpr double kTowards = 0.5;                           // cosine: a face looks at the other body
 constexpr double kTouching = 1e-6;                         // m
 constexpr double kSlightly = 1e-3;                         // m: what an engine pushes apart unseen
-constexpr int kRounds = 4;                                 // one face that gives way may help several pairs
+constexpr int kPasses = 4;                                 // one face that gives way may help several pairs
 
 /// A face that gives way to another body.
 struct Retreat {
@@ -65,7 +65,7 @@ bool are_known_objects(const Problem& problem, int a, int b) { return !problem.c
 
 void part_overlaps(const DepthView& view, Problem& problem) {
   std::vector<OrientedBox> boxes = arrange(problem, {}).boxes;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kPasses; ++round) {
     bool changed = false;
     for (int b = problem.supports_count(); b < problem.bodies(); ++b)
       for (int a = 0; a < b; ++a) {

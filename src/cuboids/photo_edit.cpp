@@ -16,7 +16,7 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kSigmas = 3.0, kOcclusionTolerance = 0.015;  // m
+constexpr double kOcclusionSigmas = 3.0, kOcclusionTolerance = 0.015;  // m
 constexpr double kRimOpacity = 0.6;                           // of foreground pixels beside background
 
 void check(const RgbdFrame& frame, const std::vector<PhotoEdit>& edits) {
@@ -64,7 +64,7 @@ Color mixed(const Color& under, const Color& over, double share) {
 void composite(const Foreground& front, const PhotoScene& photo, const Completion& scene, const PhotoEditOptions& options,
                EditedPhoto& out) {
   const auto visible = [&](int i) {
-    const double depth = front.depth[i], tolerance = kOcclusionTolerance + kSigmas * options.noise * depth * depth;
+    const double depth = front.depth[i], tolerance = kOcclusionTolerance + kOcclusionSigmas * options.noise * depth * depth;
     return front.cuboid[i] >= 0 && depth < photo.background[i] + tolerance;
   };
   for (int y = 0; y < out.height; ++y)

@@ -10,10 +10,10 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kSnap = 0.012;     // m: measured points so near to their box are taken as on it
-constexpr double kSigmas = 3.0;
+constexpr double kDepthSigmas = 3.0;
 constexpr double kLargestStep = 0.03;  // of the depth: neighbours farther apart in depth are not one surface
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
-constexpr std::size_t kRowsAtOnce = 16;
+constexpr std::size_t kRenderedRows = 16;
 
 /// The photograph between its pixels.
 Color sampled(const RgbdFrame& frame, double u, double v) {
@@ -42,7 +42,7 @@ struct Painter {
   Foreground& out;
 
   const OrientedBox& box() const { return scene.cuboids[cuboid].box; }
-  double tolerance(double depth) const { return kSnap + kSigmas * options.noise * depth * depth; }
+  double tolerance(double depth) const { return kSnap + kDepthSigmas * options.noise * depth * depth; }
 
   void put(int pixel, double depth, const Color& color) {
     if (!(depth < out.depth[pixel])) return;
@@ -211,7 +211,7 @@ std::vector<float> shadow_of_moved(const RgbdFrame& frame, const Completion& sce
   std::vector<float> out(pixels, 0.0f);
   if (boxes.empty()) return out;
   const std::vector<Vec3> lights = light_directions();
-  parallel_blocks(context, pixels, kRowsAtOnce * static_cast<std::size_t>(w), [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(context, pixels, kRenderedRows * static_cast<std::size_t>(w), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double depth = photo.background[i];
       if (!std::isfinite(depth)) continue;

@@ -14,12 +14,12 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kLeastTolerance = 0.006, kSigmas = 3.0;  // m: what counts as on a surface
+constexpr double kLeastTolerance = 0.006, kSurfaceSigmas = 3.0;  // m: what counts as on a surface
 constexpr double kInFront = 0.03;                         // m: so much nearer than the object is before it
 constexpr int kRimShare = 160;                            // the rim of a hole is that part of the picture's width
 constexpr double kFarthest = 1.5;                         // times the largest measured depth: planes end there
 constexpr std::size_t kRowsAtOnce = 16;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNoDepth = std::numeric_limits<double>::infinity();
 
 /// How far a point is outside a box; 0 within.
 double distance_outside(const OrientedBox& box, const Vec3& p) {
@@ -47,7 +47,7 @@ struct Seen {
   const Completion& scene;
   const PhotoEditOptions& options;
 
-  double tolerance(double depth) const { return std::max(kLeastTolerance, kSigmas * options.noise * depth * depth); }
+  double tolerance(double depth) const { return std::max(kLeastTolerance, kSurfaceSigmas * options.noise * depth * depth); }
 
   /// Index of the support that a point lies on, −1 = none.
   int support_at(const Vec3& p, double within) const {
@@ -59,7 +59,7 @@ struct Seen {
   /// Index of the cuboid that a measured point belongs to, −1 = none.
   int cuboid_at(const Vec3& p, double depth) const {
     int best = -1;
-    double least_outside = options.margin + 1e-12, least_depth = kInfinite;
+    double least_outside = options.margin + 1e-12, least_depth = kNoDepth;
     for (std::size_t c = 0; c < scene.cuboids.size(); ++c) {
       const OrientedBox& box = scene.cuboids[c].box;
       const double outside = distance_outside(box, p);
@@ -113,7 +113,7 @@ Ray ray_of_pixel(const Camera& camera, const RigidTransform& T_world_camera, dou
 
 std::optional<BoxHit> hit_box(const Ray& ray, const OrientedBox& box) {
   const Vec3 origin = box.axes.transpose() * (ray.origin - box.center), direction = box.axes.transpose() * ray.direction;
-  double enter = 0.0, leave = kInfinite;
+  double enter = 0.0, leave = kNoDepth;
   int axis = -1;
   for (int k = 0; k < 3; ++k) {
     if (direction[k] == 0.0) {
@@ -133,7 +133,7 @@ std::optional<BoxHit> hit_box(const Ray& ray, const OrientedBox& box) {
 }
 
 std::optional<SurfaceHit> nearest_surface(const Ray& ray, const Completion& scene, const std::vector<char>& left_out) {
-  SurfaceHit best{-1, kInfinite};
+  SurfaceHit best{-1, kNoDepth};
   for (const Support& support : scene.supports) {
     const double slope = support.plane.normal.dot(ray.direction);
     if (slope >= 0.0) continue;  // seen from behind
@@ -145,7 +145,7 @@ std::optional<SurfaceHit> nearest_surface(const Ray& ray, const Completion& scen
     const auto hit = hit_box(ray, scene.cuboids[c].box);
     if (hit && hit->enter < best.depth) best = {scene.cuboids[c].id, hit->enter};
   }
-  return best.depth < kInfinite ? std::optional(best) : std::nullopt;
+  return best.depth < kNoDepth ? std::optional(best) : std::nullopt;
 }
 
 std::vector<EditedBody> bodies_of(const std::vector<PhotoEdit>& edits, const Completion& scene) {

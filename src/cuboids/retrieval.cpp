@@ -16,7 +16,7 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr std::size_t kStructurePoints = 3000, kModelPoints = 3000, kFewPoints = 300, kRefinePoints = 600;
+constexpr std::size_t kStructurePoints = 3000, kPointsOfModel = 3000, kFewPoints = 300, kPointsToRefine = 600;
 constexpr std::size_t kRefined = 3;   // of the sampled turns
 constexpr double kReach = 0.1;        // of the diagonal: partners of the refinement
 
@@ -139,14 +139,14 @@ struct Matcher {
   /// Drawn to the structure's surface.
   RetrievedModel refined(const std::vector<Vec3>& points, const SampledSurface& surface, const RetrievedModel& start) const {
     std::vector<Vec3> scaled;
-    for (const Vec3& p : every_nth(points, kRefinePoints)) scaled.push_back(start.scale * p);
+    for (const Vec3& p : every_nth(points, kPointsToRefine)) scaled.push_back(start.scale * p);
     RetrievedModel out = start;
     out.T_world_model = register_upright(scaled, surface, start.T_world_model, kReach * structure.diagonal()).T_target_source;
     return out;
   }
 
   RetrievedModel best(const RetrievalModel& model, const SampledSurface& surface) const {
-    const std::vector<Vec3> all = every_nth(model.points, kModelPoints), few = every_nth(model.points, kFewPoints);
+    const std::vector<Vec3> all = every_nth(model.points, kPointsOfModel), few = every_nth(model.points, kFewPoints);
     const std::vector<Vec3> samples = every_nth(structure.points, kFewPoints);
     std::vector<RetrievedModel> turns;
     const int steps = std::max(1, static_cast<int>(std::lround(2.0 * kPi / options.angle_step)));

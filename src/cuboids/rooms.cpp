@@ -8,7 +8,7 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kUpright = 0.7;     // cosine
+constexpr double kUprightFace = 0.7;     // cosine
 constexpr double kFitOpen = 1.5;     // tolerances
 constexpr int kMaxSamples = 14;      // along one side of a face
 constexpr int kEdgeSamples = 9;      // along an edge
@@ -59,7 +59,7 @@ static Extension room_of(const DepthView& view, const Cuboid& cuboid, double tol
   const OrientedBox& box = cuboid.initial;
   Extension room{};
   for (int face = 0; face < 6; ++face) {
-    const bool sideways = std::abs(face_normal(box, face).z()) < kUpright;
+    const bool sideways = std::abs(face_normal(box, face).z()) < kUprightFace;
     if (sideways && cuboid.by_symmetry) continue;
     const auto is_open = [&](double at) {
       return free_share(view, box, face, at, tolerance) <= kFreeShare && (!sideways || is_covered(view, box, face, at, tolerance));

@@ -10,8 +10,8 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr int kMostCells = 14;          // an axis; (14 · 15 / 2)³ candidates
-constexpr double kSmallestShare = 0.1;  // of the points of the whole
-constexpr std::size_t kFewestPoints = 100;
+constexpr double kSmallestSlab = 0.1;  // of the points of the whole
+constexpr std::size_t kFewestSlabPoints = 100;
 constexpr double kLeastGain = 0.05;
 constexpr int kMostSlabs = 12;
 
@@ -109,7 +109,7 @@ std::vector<std::vector<int>> split_into_slabs(const Observation& seen, const De
     ++cells.points[cell_of[k]];
     cells.filled[cell_of[k]] = 1;
   }
-  const std::size_t fewest = std::max(kFewestPoints, static_cast<std::size_t>(kSmallestShare * static_cast<double>(points.size())));
+  const std::size_t fewest = std::max(kFewestSlabPoints, static_cast<std::size_t>(kSmallestSlab * static_cast<double>(points.size())));
   std::vector<std::vector<int>> slabs;
   while (static_cast<int>(slabs.size()) < kMostSlabs) {
     const Slab slab = best_slab(cells, fill);

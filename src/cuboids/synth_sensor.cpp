@@ -11,7 +11,7 @@ namespace {
 constexpr double kRange = 6.0;   // m
 constexpr double kJump = 0.015;  // of the depth: a larger step between neighbours is an edge
 // A step of 2.1 σ has a rounding error of 0.606 σ; what is left of σ comes before the rounding.
-constexpr double kStep = 2.1, kBefore = 0.7953;
+constexpr double kDisparityStep = 2.1, kBefore = 0.7953;
 
 /// Places along a ray in the box's own axes: entry, and the axis of the face that it enters by.
 RayHit hit_box(const OrientedBox& box, const Vec3& origin, const Vec3& direction) {
@@ -134,7 +134,7 @@ std::vector<float> measure(const std::vector<float>& exact, const Camera& camera
     if (chance < dropout / 2 && near_edge(exact, camera, u, v, 2)) continue;
     double inverse = 1.0 / depth;
     if (noise > 0) {
-      const double step = kStep * noise;
+      const double step = kDisparityStep * noise;
       inverse = std::round((inverse + kBefore * noise * normal) / step) * step;
     }
     if (inverse > 0) measured[i] = static_cast<float>(1.0 / inverse);

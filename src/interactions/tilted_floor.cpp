@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeastTilt = 0.14, kMostTilt = 1.4;  // rad
 constexpr double kLevelSd = 0.03, kSurely = 15;        // rad about the start; χ² by which a tilt must explain bodies better than that
-constexpr double kUsualHeight = 2.2, kHeightSd = 0.7;  // m, of tilted cameras
+constexpr double kTiltedHeight = 2.2, kTiltedHeightSd = 0.7;  // m, of tilted cameras
 
 /// A body in the picture, for a focal length of one; each point is the middle of two joints.
 struct Body {
@@ -153,9 +153,9 @@ std::optional<GroundStart> tilted_floor(const Take& take, const GroundStart& sta
 
   const Eigen::Index size = 2 + take.people;
   Unknowns usual = Unknowns::Zero(size), sd = Unknowns::Constant(size, kStatureSd);
-  const double height = take.camera_height.value_or(kUsualHeight);
+  const double height = take.camera_height.value_or(kTiltedHeight);
   usual[0] = std::log(std::max(0.1, height - kAnkleHeight));
-  sd[0] = take.camera_height ? kKnownSd : kHeightSd / kUsualHeight;
+  sd[0] = take.camera_height ? kKnownSd : kTiltedHeightSd / kTiltedHeight;
   usual[1] = start.ground.pitch;
   sd[1] = kLevelSd;
   const Fit level = fit(bodies, usual, usual, sd, context);

@@ -20,7 +20,7 @@ constexpr std::size_t kLargest = std::size_t{64} << 20;  // bytes
 constexpr std::size_t kMostBlocks = 2000;
 constexpr std::size_t kMostVertices = 2000;  // a block
 constexpr double kFarthest = 1e6;
-constexpr const char* kExpected = "an assembly: \"blocks\", or a compas assembly";
+constexpr const char* kExpectedAssembly = "an assembly: \"blocks\", or a compas assembly";
 
 void require_count(const JsonField& field, std::size_t count, std::size_t least, std::size_t most) {
   if (count < least || count > most) field.fail(fmt::format("{} to {} entries", least, most));
@@ -159,12 +159,12 @@ Assembly read_compas(const JsonField& root) {
 }  // namespace
 
 Assembly read_assembly_in_memory(const std::string& text, const std::string& name) {
-  const nlohmann::json parsed = parse_json(text, name, kExpected);
+  const nlohmann::json parsed = parse_json(text, name, kExpectedAssembly);
   const JsonField root(parsed, name);
-  if (!parsed.is_object()) root.fail(kExpected);
+  if (!parsed.is_object()) root.fail(kExpectedAssembly);
   if (root.has("blocks")) return read_ours(parsed, root);
   if (root.has("data")) return read_compas(root);
-  throw InputError(name, "", "neither \"blocks\" nor \"data\"", kExpected);
+  throw InputError(name, "", "neither \"blocks\" nor \"data\"", kExpectedAssembly);
 }
 
 Assembly read_assembly(const std::filesystem::path& path) {

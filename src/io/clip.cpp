@@ -11,13 +11,13 @@
 namespace unseen::io {
 namespace {
 
-constexpr const char* kExpected = "a video that FFmpeg can decode";
+constexpr const char* kExpectedVideo = "a video that FFmpeg can decode";
 
 }  // namespace
 
 Clip::Clip(std::string path) : path_(std::move(path)) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path_, error)) throw InputError(path_, "video", "no such file", kExpected);
+  if (!std::filesystem::is_regular_file(path_, error)) throw InputError(path_, "video", "no such file", kExpectedVideo);
   const QuietOpenCv quiet;
   bool open = false;
   try {
@@ -25,7 +25,7 @@ Clip::Clip(std::string path) : path_(std::move(path)) {
   } catch (const cv::Exception&) {
     open = false;
   }
-  if (!open) throw InputError(path_, "video", "no video stream that can be read", kExpected);
+  if (!open) throw InputError(path_, "video", "no video stream that can be read", kExpectedVideo);
   capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 1.0);
   const double fps = capture_.get(cv::CAP_PROP_FPS), count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
   fps_ = std::isfinite(fps) && fps > 0.1 && fps < 1e5 ? fps : 0.0;

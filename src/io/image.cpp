@@ -18,7 +18,7 @@
 namespace unseen::io {
 namespace {
 
-constexpr bool kSwap = std::endian::native == std::endian::little;  // both formats are big endian
+constexpr bool kSwapBigEndian = std::endian::native == std::endian::little;  // both formats are big endian
 
 struct Size {
   std::uint64_t width = 0, height = 0;
@@ -27,7 +27,7 @@ struct Size {
 /// From the header chunk, which always comes first.
 Size png_size(std::string_view bytes) {
   if (bytes.size() < 33 || bytes.substr(12, 4) != "IHDR") return {};
-  return {load<std::uint32_t>(bytes.data() + 16, kSwap), load<std::uint32_t>(bytes.data() + 20, kSwap)};
+  return {load<std::uint32_t>(bytes.data() + 16, kSwapBigEndian), load<std::uint32_t>(bytes.data() + 20, kSwapBigEndian)};
 }
 
 /// From the first start-of-frame segment.
@@ -42,9 +42,9 @@ Size jpeg_size(std::string_view bytes) {
     }
     const bool frame = marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (frame)
-      return {load<std::uint16_t>(bytes.data() + at + 7, kSwap),
-              load<std::uint16_t>(bytes.data() + at + 5, kSwap)};
-    at += 2 + load<std::uint16_t>(bytes.data() + at + 2, kSwap);
+      return {load<std::uint16_t>(bytes.data() + at + 7, kSwapBigEndian),
+              load<std::uint16_t>(bytes.data() + at + 5, kSwapBigEndian)};
+    at += 2 + load<std::uint16_t>(bytes.data() + at + 2, kSwapBigEndian);
   }
   return {};
 }

@@ -12,7 +12,7 @@
 namespace unseen::io {
 namespace {
 
-constexpr bool kSwap = std::endian::native == std::endian::big;
+constexpr bool kSwapLittleEndian = std::endian::native == std::endian::big;
 constexpr std::array<std::size_t, 11> kRecord = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 constexpr std::array<std::size_t, 11> kColor = {0, 0, 20, 28, 0, 28, 0, 30, 30, 0, 30};  ///< 0 = none
 
@@ -36,7 +36,7 @@ class LasSource final : public PointSource {
     resize(block, attributes_, count);
     const std::size_t at = start_ + done_ * stride_;
     for (const Column& column : columns_)
-      decode_column(bytes_->view().data() + at, stride_, count, column, kSwap, block);
+      decode_column(bytes_->view().data() + at, stride_, count, column, kSwapLittleEndian, block);
     bytes_->release_before(at);
     done_ += count;
     return true;
@@ -50,7 +50,7 @@ class LasSource final : public PointSource {
 
   template <class T>
   T at(std::size_t offset) const {
-    return load<T>(bytes_->view().data() + offset, kSwap);
+    return load<T>(bytes_->view().data() + offset, kSwapLittleEndian);
   }
 
   void read_header() {

@@ -14,16 +14,16 @@ constexpr std::size_t kDirections = 200, kAnchors = 30, kFrames = 300;
 constexpr double kWorth = 2.0;  // a patch that a frame leaves unexplained counts no more than this
 constexpr double kLeastGain = 0.1;  // … and a frame must explain that much more than those before it
 
-struct Direction {
+struct NormalCluster {
   Vec3 normal;
   double area;
 };
 
-std::vector<Direction> cluster_normals(const Patches& patches, const std::vector<int>& members, double radius) {
-  std::vector<Direction> directions;
+std::vector<NormalCluster> cluster_normals(const Patches& patches, const std::vector<int>& members, double radius) {
+  std::vector<NormalCluster> directions;
   for (const int j : members) {
     const Patch& patch = patches.patches[j];
-    auto it = std::find_if(directions.begin(), directions.end(), [&](const Direction& d) {
+    auto it = std::find_if(directions.begin(), directions.end(), [&](const NormalCluster& d) {
       return line_angle(d.normal, patch.fit.normal) < radius;
     });
     if (it != directions.end()) {
@@ -33,7 +33,7 @@ std::vector<Direction> cluster_normals(const Patches& patches, const std::vector
     }
   }
   std::stable_sort(directions.begin(), directions.end(),
-                   [](const Direction& a, const Direction& b) { return a.area > b.area; });
+                   [](const NormalCluster& a, const NormalCluster& b) { return a.area > b.area; });
   return directions;
 }
 
@@ -98,10 +98,10 @@ std::vector<OrientationFrame> most_telling(const std::vector<OrientationFrame>& 
 std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::vector<int>& members,
                                              const std::vector<OrientationFrame>& given, const AngleSet& angles,
                                              const Space& space, double patch_angle, const Context& context) {
-  std::vector<Direction> directions = cluster_normals(patches, members, kCluster);
+  std::vector<NormalCluster> directions = cluster_normals(patches, members, kCluster);
   if (directions.size() > kDirections) directions.resize(kDirections);
   std::vector<OrientationFrame> frames;
-  for (const Direction& d : directions) frames.push_back(open_frame(d.normal, space));
+  for (const NormalCluster& d : directions) frames.push_back(open_frame(d.normal, space));
   if (space.is_2d()) return frames;
 
   std::vector<Vec3> anchors;
@@ -118,7 +118,7 @@ std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::
                      [&](const OrientationFrame& f) { return same(f, frame); }))
       closed.push_back(std::move(frame));
   };
-  for (const Direction& d : directions)
+  for (const NormalCluster& d : directions)
     for (const Vec3& anchor : anchors) close(anchor, d.normal);
   std::vector<char> generates(patches.patches.size(), 0);
   for (const int j : members) generates[j] = 1;

@@ -15,7 +15,7 @@ Json score_of(const std::optional<collision::ValueScore>& s) {
   return {{"value", number(s->value)}, {"truth", number(s->truth)}, {"error", number(s->error)}, {"covered", s->covered}};
 }
 
-Json motion_of(const collision::MotionScore& m) {
+Json score_of(const collision::MotionScore& m) {
   Json json = {{"name", m.name}, {"frames", m.frames}, {"trajectory", number(m.trajectory)}, {"depth", number(m.depth)}, {"across", number(m.across)}};
   json["rotation_deg"] = m.rotation ? degrees_of(*m.rotation) : Json(nullptr);
   return json;
@@ -46,7 +46,7 @@ std::string evaluation_json(const CollisionEvaluation& e) {
                {"found", s.found},
                {"restitution", score_of(s.restitution)},
                {"mass_ratio", score_of(s.mass_ratio)},
-               {"motions", list_of(s.motions, [](const auto& m, std::size_t) { return motion_of(m); })}};
+               {"motions", list_of(s.motions, [](const auto& m, std::size_t) { return score_of(m); })}};
   json["time_frames"] = s.time ? number(*s.time) : Json(nullptr);
   json["penetration"] = s.penetration ? number(*s.penetration) : Json(nullptr);
   json["gravity_deg"] = degrees_of(s.gravity);

@@ -32,7 +32,7 @@ Json bodies_of(const std::vector<Body>& bodies) {
 /// In the form of a result's estimates.
 Json exactly(double value) { return {{"value", number(value)}, {"sd", 0.0}}; }
 
-Json frame_of(const FramePose& f) {
+Json true_frame_of(const FramePose& f) {
   Json json = {{"frame", f.frame}, {"t", number(f.time)}};
   for (int b = 0; b < 2; ++b)
     if (f.bodies[b]) json[kBodyKeys[b]] = state_of(*f.bodies[b]);
@@ -51,7 +51,7 @@ std::string collision_truth_json(const Truth& truth, const OptionTable& options)
   json["impacts"] = list_of(truth.impacts, [&](const Impact& i, std::size_t) { return impact_of(i, exactly(i.restitution.value), {truth.bodies.at(0).name, truth.bodies.at(1).name}); });
   json["restitution"] = or_null(truth.restitution, exactly);
   json["mass_ratio"] = or_null(truth.mass_ratio, exactly);
-  json["frames"] = list_of(truth.frames, [](const FramePose& f, std::size_t) { return frame_of(f); });
+  json["frames"] = list_of(truth.frames, [](const FramePose& f, std::size_t) { return true_frame_of(f); });
   return text_of(json);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 using namespace collision;
 
-constexpr std::size_t kMostFrames = 1'000'000'000;
+constexpr std::size_t kLastTrueFrame = 1'000'000'000;
 
 /// {"value", "sd": 0}, as a result's estimates have it.
 std::optional<double> exact(const JsonField& json, double most) {
@@ -49,7 +49,7 @@ Impact read_impact(const JsonField& json, const Truth& truth) {
 
 FramePose read_frame(const JsonField& json, const Truth& truth) {
   FramePose f;
-  f.frame = json["frame"].index(kMostFrames);
+  f.frame = json["frame"].index(kLastTrueFrame);
   if (!truth.frames.empty() && f.frame <= truth.frames.back().frame) json["frame"].fail("frames in their order");
   f.time = json["t"].number(0);
   for (std::size_t b = 0; b < 2; ++b) {

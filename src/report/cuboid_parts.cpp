@@ -78,6 +78,8 @@ std::string name_of(const cuboids::Support& s) {
   return fmt::format("{} {}", cuboids::kSupportKinds[static_cast<int>(s.kind)], s.id);
 }
 
+std::string attribute_of(const Vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z()); }
+
 std::vector<Vec3> corners_of(const OrientedBox& box) {
   std::vector<Vec3> corners;
   for (int k = 0; k < 8; ++k)

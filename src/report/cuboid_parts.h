@@ -28,6 +28,8 @@ std::vector<OrientedBox> hidden_boxes(const cuboids::Cuboid& cuboid);
 std::string name_of(const cuboids::Cuboid& cuboid);
 /// "desk 0"
 std::string name_of(const cuboids::Support& support);
+/// "1 0.5 0": a vector as an attribute of an XML element.
+std::string attribute_of(const Vec3& v);
 
 /// Corners of a box: bit k of the index tells the side along axis k.
 std::vector<Vec3> corners_of(const OrientedBox& box);

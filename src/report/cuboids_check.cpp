@@ -6,13 +6,6 @@
 #include "unseen/core/version.h"
 
 namespace unseen::report {
-namespace {
-
-Json vectors_of(const std::vector<Vec3>& vectors) {
-  return list_of(vectors, [](const Vec3& v, std::size_t) { return vector_of(v); });
-}
-
-}  // namespace
 
 std::string check_json(const cuboids::Check& check, const std::vector<cuboids::Block>& blocks,
                        const cuboids::CheckOptions& options) {

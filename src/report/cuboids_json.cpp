@@ -6,10 +6,6 @@
 namespace unseen::report {
 namespace {
 
-Json vectors_of(const std::vector<Vec3>& vectors) {
-  return list_of(vectors, [](const Vec3& v, std::size_t) { return vector_of(v); });
-}
-
 Json support_of(const cuboids::Support& s) {
   Json json = {{"id", s.id},
                {"kind", cuboids::kSupportKinds[static_cast<int>(s.kind)]},

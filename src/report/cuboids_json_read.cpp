@@ -14,14 +14,6 @@ namespace {
 
 using Ids = std::set<int>;
 
-constexpr std::size_t kMostIds = 1'000'000'000;
-
-int known_id(const JsonField& json, const Ids& ids) {
-  const int id = json.index(kMostIds);
-  if (ids.count(id) == 0) json.fail("the id of a support or cuboid");
-  return id;
-}
-
 std::vector<Vec3> vectors(const JsonField& json) {
   std::vector<Vec3> list;
   for (const JsonField& field : json.list()) list.push_back(field.vector());

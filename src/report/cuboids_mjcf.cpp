@@ -14,10 +14,6 @@ namespace {
 
 using cuboids::Completion;
 
-std::string text_of(const Vec3& v) {
-  return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z());
-}
-
 std::string quaternion_of(const Mat3& rotation) {
   const Eigen::Quaterniond q(rotation);
   return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}", q.w(), q.x(), q.y(), q.z());
@@ -29,7 +25,7 @@ std::string geom_of(const cuboids::Cuboid& c, const Vec3& origin, int color) {
   return fmt::format(
       "<geom name=\"{} geom\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" mass=\"{:.9g}\" rgba=\"{:.3f} {:.3f} "
       "{:.3f} 1\"/>\n",
-      escape(name_of(c)), text_of(c.box.center - origin), quaternion_of(c.box.axes), text_of(c.box.half_size), c.mass(),
+      escape(name_of(c)), attribute_of(c.box.center - origin), quaternion_of(c.box.axes), attribute_of(c.box.half_size), c.mass(),
       rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
 }
 
@@ -50,7 +46,7 @@ std::string support_geom(const cuboids::Support& s) {
   if (s.outline.size() < 3) {
     const Vec3 origin = s.plane.project(Vec3::Zero());
     return fmt::format("    <geom name=\"{}\" type=\"plane\" pos=\"{}\" quat=\"{}\" size=\"0 0 1\" {}/>\n", name,
-                       text_of(origin), quaternion_of(plane_axes(s.plane.normal, any_orthogonal(s.plane.normal))),
+                       attribute_of(origin), quaternion_of(plane_axes(s.plane.normal, any_orthogonal(s.plane.normal))),
                        look);
   }
   constexpr double kThickness = 0.02;  // m
@@ -61,7 +57,7 @@ std::string support_geom(const cuboids::Support& s) {
   const Vec3 center = axes.col(0) * reach.center().x() + axes.col(1) * reach.center().y() +
                       s.plane.normal * (s.plane.offset - 0.5 * kThickness);
   return fmt::format("    <geom name=\"{}\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" {}/>\n", name,
-                     text_of(center), quaternion_of(axes), text_of(half), look);
+                     attribute_of(center), quaternion_of(axes), attribute_of(half), look);
 }
 
 std::string group_body(const Completion& c, const RigidGroup& group) {
@@ -79,7 +75,7 @@ std::string group_body(const Completion& c, const RigidGroup& group) {
   center /= mass;
   std::string text;
   if (unsupported) text += "    <!-- nothing can support this: held where it was seen -->\n";
-  text += fmt::format("    <body name=\"{}\" pos=\"{}\">\n", escape(name), text_of(center));
+  text += fmt::format("    <body name=\"{}\" pos=\"{}\">\n", escape(name), attribute_of(center));
   if (!unsupported && group.support < 0) text += "      <freejoint/>\n";
   for (const std::size_t i : group.cuboids) text += "      " + geom_of(c.cuboids[i], center, static_cast<int>(i));
   return text + "    </body>\n";

@@ -14,7 +14,7 @@ namespace {
 
 using cuboids::Completion;
 
-constexpr std::size_t kMostPoints = 400'000;
+constexpr std::size_t kPointsShown = 400'000;
 
 /// "41.2 × 26.3 × 15.0"
 std::string sizes(const OrientedBox& box) {
@@ -112,7 +112,7 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
   header["inside"] = false;
   if (!c.cuboids.empty()) header["focus"] = focus_of(c);
   header["facts"] = facts_of(c, options);
-  const DepthPoints points = depth_points(frame, c.T_world_camera, kMostPoints);
+  const DepthPoints points = depth_points(frame, c.T_world_camera, kPointsShown);
   if (points.positions.size() < points.seen)
     header["thinned"] = {{"shown", points.positions.size()}, {"of", points.seen}};
   add_boxes(scene, c);

@@ -11,7 +11,7 @@ namespace {
 
 using cuboids::Completion;
 
-constexpr std::array<std::uint8_t, 3> kSupportColor = {176, 176, 170};
+constexpr std::array<std::uint8_t, 3> kPlainSupport = {176, 176, 170};
 
 struct Poses {
   std::vector<Vec3> centers, sizes;
@@ -170,7 +170,7 @@ void add_supports(SceneBuilder& scene, const Completion& c) {
   planes["triangles"] = scene.triples(triangles);
   planes["triangle_plane"] = scene.integers(owner);
   planes["normals"] = scene.vectors(normals);
-  const std::vector<std::array<std::uint8_t, 3>> plain(c.supports.size(), kSupportColor);
+  const std::vector<std::array<std::uint8_t, 3>> plain(c.supports.size(), kPlainSupport);
   planes["quantities"].push_back(quantity("plain", "Plain", "color", scene.colors(plain)));
 }
 

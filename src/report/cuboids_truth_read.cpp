@@ -15,17 +15,11 @@
 namespace unseen::report {
 namespace {
 
-constexpr std::size_t kMostIds = 1'000'000'000;
+constexpr std::size_t kMostLabels = 1'000'000'000;
 constexpr double kMillimetre = 1e-3;
 constexpr int kFirstObject = 20;  // labels below mark the support
 
-int known_id(const JsonField& json, const std::set<int>& ids) {
-  const int id = json.index(kMostIds);
-  if (ids.count(id) == 0) json.fail("the id of a support or cuboid");
-  return id;
-}
-
-cuboids::TrueCuboid cuboid(const JsonField& json, std::set<int>& ids) {
+cuboids::TrueCuboid true_cuboid(const JsonField& json, std::set<int>& ids) {
   cuboids::TrueCuboid c;
   c.id = new_id(json["id"], ids);
   c.size = json["size"].vector();
@@ -72,7 +66,7 @@ cuboids::Truth read_cuboids_truth(const std::filesystem::path& path) {
     support.plane = {field["normal"].unit_vector(), field["offset"].number()};
     truth.supports.push_back(support);
   }
-  for (const JsonField& field : json["cuboids"].list()) truth.cuboids.push_back(cuboid(field, ids));
+  for (const JsonField& field : json["cuboids"].list()) truth.cuboids.push_back(true_cuboid(field, ids));
   for (const JsonField& field : json["contacts"].list()) {
     cuboids::Contact contact;
     contact.a = known_id(field["a"], ids);
@@ -132,7 +126,7 @@ cuboids::Truth read_measured_truth(const std::filesystem::path& path, const std:
     truth.cuboids.push_back(cuboid);
   }
   const auto id_of = [&](const JsonField& field) {
-    const int label = field.index(kMostIds);
+    const int label = field.index(kMostLabels);
     if (label < kFirstObject) return 0;
     if (id_of_object.count(label / 10) == 0) field.fail("a label of \"obj\", or of the support");
     return id_of_object.at(label / 10);

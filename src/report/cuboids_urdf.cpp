@@ -15,10 +15,6 @@ namespace {
 
 using cuboids::Completion;
 
-std::string text_of(const Vec3& v) {
-  return fmt::format("{:.9g} {:.9g} {:.9g}", v.x(), v.y(), v.z());
-}
-
 /// Roll, pitch and yaw as URDF has them: R = Rz(yaw) Ry(pitch) Rx(roll).
 Vec3 roll_pitch_yaw(const Mat3& r) {
   const double pitch = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
@@ -27,7 +23,7 @@ Vec3 roll_pitch_yaw(const Mat3& r) {
 }
 
 std::string origin_of(const RigidTransform& t) {
-  return fmt::format("<origin xyz=\"{}\" rpy=\"{}\"/>", text_of(t.translation), text_of(roll_pitch_yaw(t.rotation)));
+  return fmt::format("<origin xyz=\"{}\" rpy=\"{}\"/>", attribute_of(t.translation), attribute_of(roll_pitch_yaw(t.rotation)));
 }
 
 /// A body of the tree: its name, its place in the world and its size.
@@ -40,7 +36,7 @@ struct Link {
 };
 
 std::string link_text(const Link& l, double friction) {
-  const std::string shape = fmt::format("<geometry><box size=\"{}\"/></geometry>", text_of(l.size));
+  const std::string shape = fmt::format("<geometry><box size=\"{}\"/></geometry>", attribute_of(l.size));
   std::string text = fmt::format("  <link name=\"{}\">\n", l.name);
   if (l.mass > 0) {
     const Vec3 s = l.size.cwiseAbs2() * (l.mass / 12.0);

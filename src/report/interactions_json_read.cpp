@@ -11,7 +11,7 @@ namespace {
 
 using namespace interactions;
 
-constexpr std::size_t kMost = 1'000'000'000, kMostObjects = 500, kMostParts = 50, kMostPeople = 100, kMostFrames = 10'000'000;
+constexpr std::size_t kMost = 1'000'000'000, kMostObjects = 500, kMostParts = 50, kMostPeople = 100, kMostResultFrames = 10'000'000;
 
 Part part(const JsonField& json) {
   Part p;
@@ -46,7 +46,7 @@ FoundObject object(const JsonField& json, std::set<int>& ids, std::size_t window
 
 PersonFrame frame(const JsonField& json) {
   PersonFrame f;
-  f.frame = json["frame"].index(kMostFrames);
+  f.frame = json["frame"].index(kMostResultFrames);
   const auto joints = json["joints"].list(kJoints), confidence = json["confidence"].list(kJoints);
   if (joints.size() != kJoints) json["joints"].fail("16 joints");
   if (confidence.size() != kJoints) json["confidence"].fail("16 numbers");
@@ -62,11 +62,11 @@ PersonFrame frame(const JsonField& json) {
 Person person(const JsonField& json, std::set<int>& ids) {
   Person p;
   p.id = new_id(json["id"], ids);
-  for (const JsonField& field : json["frames"].list(kMostFrames)) {
+  for (const JsonField& field : json["frames"].list(kMostResultFrames)) {
     p.frames.push_back(frame(field));
     if (p.frames.size() > 1 && p.frames.back().frame <= p.frames[p.frames.size() - 2].frame) field["frame"].fail("a frame after the one before");
   }
-  for (const JsonField& field : json["likelihood"].list(kMostFrames)) p.likelihood.push_back(field.number(0, 1));
+  for (const JsonField& field : json["likelihood"].list(kMostResultFrames)) p.likelihood.push_back(field.number(0, 1));
   if (p.likelihood.size() != p.frames.size()) json["likelihood"].fail("one a frame");
   return p;
 }
@@ -74,8 +74,8 @@ Person person(const JsonField& json, std::set<int>& ids) {
 Window window(const JsonField& json) {
   Window w;
   w.person = json["person"].index(kMost);
-  w.first = json["first"].index(kMostFrames);
-  w.last = json["last"].index(kMostFrames);
+  w.first = json["first"].index(kMostResultFrames);
+  w.last = json["last"].index(kMostResultFrames);
   if (w.last < w.first) json["last"].fail("at least first");
   w.scenelet = json["scenelet"].text();
   w.likelihood = json["likelihood"].number();
@@ -112,7 +112,7 @@ Reconstruction parse_interactions_result(const std::string& text, const std::str
   const JsonField ground = json["ground"];
   r.ground = {ground["camera_height"].number(), radians(ground["pitch_deg"].number(-180, 180)), radians(ground["roll_deg"].number(-180, 180)),
               ground["source"].text()};
-  for (const JsonField& field : json["windows"].list(kMostFrames)) r.windows.push_back(window(field));
+  for (const JsonField& field : json["windows"].list(kMostResultFrames)) r.windows.push_back(window(field));
   std::set<int> objects, people;
   for (const JsonField& field : json["objects"].list(kMostObjects)) r.objects.push_back(object(field, objects, r.windows.size()));
   for (const JsonField& field : json["people"].list(kMostPeople)) r.people.push_back(person(field, people));

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace interactions;
 
-constexpr std::size_t kLargestTake = std::size_t{8} << 20, kMostPeople = 16, kMostLabels = 10'000, kMostMasks = 100, kMostFrame = 10'000'000;
+constexpr std::size_t kLargestTake = std::size_t{8} << 20, kMostPeopleOfTake = 16, kMostLabels = 10'000, kMostMasks = 100, kMostFrame = 10'000'000;
 
 GivenCamera given_camera(const JsonField& json) {
   const collision::ShotCamera c = read_shot_camera(json);
@@ -27,7 +27,7 @@ GivenCamera given_camera(const JsonField& json) {
 }
 
 int read_people(const JsonField& json) {
-  const double people = json.number(1, kMostPeople);
+  const double people = json.number(1, kMostPeopleOfTake);
   if (people != std::floor(people)) json.fail("a whole number");
   return static_cast<int>(people);
 }

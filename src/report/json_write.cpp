@@ -42,6 +42,10 @@ Json degrees_of(double radians) {
   return number(std::abs(exact - rounded) < 1e-12 ? rounded : exact);
 }
 
+Json vectors_of(const std::vector<Vec3>& vectors) {
+  return list_of(vectors, [](const Vec3& v, std::size_t) { return vector_of(v); });
+}
+
 Json vector_of(const Vec3& v) {
   return Json::array({number(v.x()), number(v.y()), number(v.z())});
 }

@@ -21,6 +21,7 @@ Json number(double value);
 Json degrees_of(double radians);
 
 Json vector_of(const Vec3& v);
+Json vectors_of(const std::vector<Vec3>& vectors);
 
 /// Columns of a rotation, a row each in the file.
 Json axes_of(const Mat3& axes);

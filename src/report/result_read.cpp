@@ -85,10 +85,17 @@ Camera read_camera(const JsonField& json) {
           json["height"].index(kMostPixels)};
 }
 
+constexpr std::size_t kMostIds = 1'000'000'000;
+
 int new_id(const JsonField& json, std::set<int>& ids) {
-  constexpr std::size_t kMostIds = 1'000'000'000;
   const int id = json.index(kMostIds);
   if (!ids.insert(id).second) json.fail("an id of its own");
+  return id;
+}
+
+int known_id(const JsonField& json, const std::set<int>& ids) {
+  const int id = json.index(kMostIds);
+  if (ids.count(id) == 0) json.fail("the id of a support or cuboid");
   return id;
 }
 

@@ -32,6 +32,9 @@ Camera read_camera(const JsonField& json);
 /// An id below 10⁹ that nothing before had; enters it. Throws InputError.
 int new_id(const JsonField& json, std::set<int>& ids);
 
+/// One of `ids`. Throws InputError.
+int known_id(const JsonField& json, const std::set<int>& ids);
+
 /// The place of a text in a list of names. Throws InputError that names them all.
 template <class Kind, std::size_t N>
 Kind kind_of(const JsonField& json, const char* const (&names)[N]) {

@@ -20,7 +20,7 @@ namespace {
 using namespace interactions;
 
 constexpr std::string_view kMagic = "unseenSC";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kFormatVersion = 1;
 constexpr std::size_t kPrefix = 8 + 4 * sizeof(std::uint32_t);
 constexpr std::size_t kMostBody = std::size_t{1} << 30;
 constexpr std::size_t kMostPacking = 1040;  ///< zlib makes nothing smaller than by this factor
@@ -81,7 +81,7 @@ std::string database_bytes(const Database& database) {
   const std::string header = header_of(database).dump(-1, ' ', false, Json::error_handler_t::replace);
   const std::string rest = header + packed(body);
   std::string bytes(kMagic);
-  for (const std::size_t number : {static_cast<std::size_t>(kVersion), header.size(), body.size(), static_cast<std::size_t>(checksum(rest))})
+  for (const std::size_t number : {static_cast<std::size_t>(kFormatVersion), header.size(), body.size(), static_cast<std::size_t>(checksum(rest))})
     io::append_little(bytes, static_cast<std::uint32_t>(number));
   return bytes + rest;
 }
@@ -90,8 +90,8 @@ Database parse_database(std::string_view bytes, const std::string& source) {
   const std::string kind = "a scenelet database of unseen scenelets build";
   if (bytes.substr(0, kMagic.size()) != kMagic) throw InputError(source, "", "another kind of file", kind);
   if (bytes.size() < kPrefix) throw InputError(source, "", fmt::format("{} bytes", bytes.size()), kind);
-  if (const std::uint32_t version = number_at(bytes, 8); version != kVersion)
-    throw InputError(source, "version", fmt::format("{}", version), fmt::format("{}", kVersion));
+  if (const std::uint32_t version = number_at(bytes, 8); version != kFormatVersion)
+    throw InputError(source, "version", fmt::format("{}", version), fmt::format("{}", kFormatVersion));
   const std::string_view rest = bytes.substr(kPrefix);
   const std::size_t header = number_at(bytes, 12), body = number_at(bytes, 16);
   if (rest.size() > std::numeric_limits<std::uint32_t>::max() || header > rest.size() || checksum(rest) != number_at(bytes, 20))

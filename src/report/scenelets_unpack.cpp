@@ -17,7 +17,7 @@ using namespace interactions;
 static_assert(std::endian::native == std::endian::little, "numbers are read as they lie in memory");
 
 constexpr std::size_t kMostPoses = 2'000'000, kMostParts = 2'000'000;  ///< of all scenelets together: some 1 GB
-constexpr std::int64_t kFarthest = 1'000'000;                          ///< mm
+constexpr std::int64_t kFarthestJoint = 1'000'000;                          ///< mm
 constexpr std::size_t kActions = std::size(interactions::kActions);
 
 /// Reads numbers off bytes and never beyond their end.
@@ -77,9 +77,9 @@ void read_poses(Bytes& bytes, std::vector<PackedPose>& poses) {
     std::int64_t before = 0, speed = 0;
     for (PackedPose& pose : poses) {
       const std::int64_t rest = bytes.varint();
-      if (rest < -4 * kFarthest || rest > 4 * kFarthest) bytes.fail("poses", fmt::format("a leap of {} mm", rest), "a person's motion");
+      if (rest < -4 * kFarthestJoint || rest > 4 * kFarthestJoint) bytes.fail("poses", fmt::format("a leap of {} mm", rest), "a person's motion");
       const std::int64_t value = before + speed + rest;
-      if (value < -kFarthest || value > kFarthest) bytes.fail("poses", fmt::format("{} mm", value), "within 1 km");
+      if (value < -kFarthestJoint || value > kFarthestJoint) bytes.fail("poses", fmt::format("{} mm", value), "within 1 km");
       speed = &pose == &poses.front() ? 0 : value - before;
       before = value;
       pose[k] = static_cast<std::int32_t>(value);

@@ -12,7 +12,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kC = 0.72, kRadius = 0.0335, kGravity = 9.81;
+constexpr double kC = 0.72, kBallRadius = 0.0335, kGravity = 9.81;
 
 /// How a ball is thrown over a floor at z = 0 and from where it is filmed; world with z up, degrees.
 struct View {
@@ -38,7 +38,7 @@ Shot filmed(const View& view, int seed) {
   shot.camera.camera = {1108.5, 1108.5, 639.5, 359.5, 1280, 720};
   shot.bodies.resize(2);
   shot.bodies[0].name = "ball";
-  shot.bodies[0].radius = kRadius;
+  shot.bodies[0].radius = kBallRadius;
   shot.bodies[1].name = "floor";
   shot.bodies[1].shape = Shape::fixed;
   const Mat3 R = world_to_camera(view);
@@ -49,7 +49,7 @@ Shot filmed(const View& view, int seed) {
   int left = view.bounces;
   for (int frame = 0; frame < view.frames; ++frame) {
     double t = frame / kFps - since;
-    const double height = n.dot(p) - kRadius, speed = n.dot(v), pull = n.dot(g);
+    const double height = n.dot(p) - kBallRadius, speed = n.dot(v), pull = n.dot(g);
     const double hit = (-speed - std::sqrt(std::max(0.0, speed * speed - 2.0 * pull * height))) / pull;
     if (left > 0 && t > hit) {
       p += hit * v + 0.5 * hit * hit * g;
@@ -59,7 +59,7 @@ Shot filmed(const View& view, int seed) {
     }
     const Vec3 seen = R * (p + t * v + 0.5 * t * t * g - view.camera);
     const Vec2 pixel = shot.camera.camera.project(seen) + kNoise * Vec2(random.normal(), random.normal());
-    const double radius = shot.camera.camera.fx * kRadius / seen.z() * (1.0 + 0.02 * random.normal());
+    const double radius = shot.camera.camera.fx * kBallRadius / seen.z() * (1.0 + 0.02 * random.normal());
     if (pixel.x() > 0 && pixel.x() < 1280 && pixel.y() > 0 && pixel.y() < 720) shot.observations.push_back({frame, pixel, radius, 0});
   }
   return shot;

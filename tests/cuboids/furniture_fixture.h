@@ -69,7 +69,7 @@ inline std::vector<Vec3> samples(const std::vector<OrientedBox>& boxes, std::siz
 }
 
 /// Stands 2 m south of the origin and looks at what stands there.
-inline RigidTransform pose() {
+inline RigidTransform camera_pose() {
   const Vec3 eye(0.3, -2.3, 1.4), forward = (Vec3(0.0, 0.2, 0.35) - eye).normalized(), right = forward.cross(Vec3::UnitZ()).normalized();
   RigidTransform T;
   T.rotation << right, forward.cross(right), forward;

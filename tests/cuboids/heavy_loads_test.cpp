@@ -17,7 +17,7 @@ using test::RigidScene;
 using test::Statics;
 using test::statics_of;
 
-constexpr double kStable = 1e-6;
+constexpr double kStands = 1e-6;
 
 RigidBox box(const Vec3& center, const Vec3& size, double density = 300.0) {
   return {{center, Mat3::Identity(), 0.5 * size}, density, -1, false};
@@ -28,21 +28,21 @@ Statics cube_on_cube(double ratio) {
 }
 
 double margin_of(const Statics& s) {
-  return margin(s.bodies, s.contacts, kStable);
+  return margin(s.bodies, s.contacts, kStands);
 }
 
 TEST(HeavyLoads, CubeOfAnyDensityStandsOnItsLike) {
   for (const double ratio : {1e-5, 1e-2, 1.0, 1e2, 2e2, 4e2, 1e3, 2e3, 1e4, 1e5}) {
     const Statics s = cube_on_cube(ratio);
     const Balance b = balance(s.bodies, s.contacts);
-    EXPECT_LT(b.residual, kStable) << ratio;
+    EXPECT_LT(b.residual, kStands) << ratio;
     double carried = 0.0;
     for (std::size_t i = 0; i < s.contacts.size(); ++i)
       if (s.contacts[i].a == 0) carried += b.forces[i].z();
     EXPECT_NEAR(carried / (9.81 * (1.0 + ratio)), 1.0, 1e-6) << ratio;
     // Both tip together where their common centre leaves the base.
     EXPECT_NEAR(margin_of(s), std::min(0.7, 0.5 * (1.0 + ratio) / (0.5 + 1.5 * ratio)), 2e-3) << ratio;
-    EXPECT_EQ(friction_needed(s.bodies, s.contacts, kStable), 0.0) << ratio;
+    EXPECT_EQ(friction_needed(s.bodies, s.contacts, kStands), 0.0) << ratio;
   }
 }
 
@@ -77,7 +77,7 @@ TEST(HeavyLoads, CubeOnASmallOneTipsOverItsEdge) {
   for (const double size : {0.2, 0.1, 0.05, 0.03}) {
     const Statics s = statics_of(
         {{box({0, 0, 0.5 * size}, {size, size, size}), box({0, 0, size + 0.5}, {1, 1, 1})}, {Plane{}}, 0.7});
-    EXPECT_LT(balance(s.bodies, s.contacts).residual, kStable) << size;
+    EXPECT_LT(balance(s.bodies, s.contacts).residual, kStands) << size;
     const double small = size * size * size;
     EXPECT_NEAR(margin_of(s), 0.5 * size * (1.0 + small) / (size + 0.5 + 0.5 * size * small), 2e-3) << size;
   }
@@ -89,7 +89,7 @@ TEST(HeavyLoads, SlabOnFourSmallFeetSlips) {
     for (const double x : {-0.4, 0.4})
       for (const double y : {-0.4, 0.4}) scene.boxes.push_back(box({x, y, 0.5 * size}, {size, size, size}));
     const Statics s = statics_of(scene);
-    EXPECT_LT(balance(s.bodies, s.contacts).residual, kStable) << size;
+    EXPECT_LT(balance(s.bodies, s.contacts).residual, kStands) << size;
     EXPECT_NEAR(margin_of(s), 0.7, 2e-3) << size;
   }
 }

@@ -11,7 +11,7 @@
 namespace unseen::cuboids {
 namespace {
 
-Mat3 turn(const Vec3& axis, double angle) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
+Mat3 turned_about(const Vec3& axis, double angle) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
 
 Vec3 nearest(const OrientedBox& box, const Vec3& p) {
   const Vec3 local = box.axes.transpose() * (p - box.center);
@@ -42,7 +42,7 @@ TEST(Interface, CommonFaceHasTheSampledArea) {
   for (int trial = 0; trial < 60; ++trial) {
     const Vec3 half(random.uniform(0.03, 0.15), random.uniform(0.03, 0.15), 0.04);
     OrientedBox top{{random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15), 0.14},
-                    turn(Vec3::UnitZ(), random.uniform(0, kPi)), half};
+                    turned_about(Vec3::UnitZ(), random.uniform(0, kPi)), half};
     constexpr int kSamples = 200;
     int inside = 0;
     for (int i = 0; i < kSamples; ++i)
@@ -51,7 +51,7 @@ TEST(Interface, CommonFaceHasTheSampledArea) {
         inside += top.contains(p);
       }
     const double sampled = 0.2 * 0.24 * inside / (kSamples * kSamples);
-    const Mat3 world = turn(random.direction(), random.uniform(0, kPi));
+    const Mat3 world = turned_about(random.direction(), random.uniform(0, kPi));
     const auto placed = [&](const OrientedBox& b) { return solid_of(OrientedBox{world * b.center, world * b.axes, b.half_size}); };
     const auto met = interface_of(placed(kBase), placed(top), 1e-6);
     if (sampled < 1e-4) continue;
@@ -71,7 +71,7 @@ TEST(Interface, NothingBeyondTheTolerance) {
   int near = 0, far = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const OrientedBox other{Vec3(0, 0, 0.05) + random.uniform(0.1, 0.3) * random.direction(),
-                            turn(random.direction(), random.uniform(0, kPi)),
+                            turned_about(random.direction(), random.uniform(0, kPi)),
                             {random.uniform(0.02, 0.1), random.uniform(0.02, 0.1), random.uniform(0.02, 0.1)}};
     const double apart = distance(kBase, other), tolerance = 0.01;
     const auto met = interface_of(solid_of(kBase), solid_of(other), tolerance);
@@ -114,7 +114,7 @@ TEST(Interface, EdgesAndCorners) {
   for (const double degree : {1.0, 15.0, 30.0, 45.0}) {  // a box on its edge
     const double t = radians(degree);
     const Vec3 half(0.08, 0.06, 0.04);
-    const OrientedBox top{{0, 0, 0.1 + half.z() * std::cos(t) + half.x() * std::sin(t)}, turn(Vec3::UnitY(), t), half};
+    const OrientedBox top{{0, 0, 0.1 + half.z() * std::cos(t) + half.x() * std::sin(t)}, turned_about(Vec3::UnitY(), t), half};
     const auto met = interface_of(base, solid_of(top), 1e-7);
     ASSERT_TRUE(met) << degree;
     ASSERT_EQ(met->points.size(), 2u) << degree;
@@ -122,15 +122,15 @@ TEST(Interface, EdgesAndCorners) {
     for (const Vec3& p : met->points) EXPECT_NEAR(p.x(), x, 1e-5);
     EXPECT_NEAR((met->points[0] - met->points[1]).norm(), 0.12, 1e-6);
   }
-  const Mat3 on_corner = turn(Vec3(1, -1, 0), std::acos(1.0 / std::sqrt(3.0)));
+  const Mat3 on_corner = turned_about(Vec3(1, -1, 0), std::acos(1.0 / std::sqrt(3.0)));
   const OrientedBox cube{{0.02, 0.03, 0.1 + 0.05 * std::sqrt(3.0)}, on_corner, Vec3::Constant(0.05)};
   const auto corner = interface_of(base, solid_of(cube), 1e-6);
   ASSERT_TRUE(corner);
   ASSERT_EQ(corner->points.size(), 1u);
   EXPECT_LT((corner->points[0] - Vec3(0.02, 0.03, 0.1)).norm(), 1e-6);
 
-  const OrientedBox along_x{{0, 0, 0}, turn(Vec3::UnitX(), kPi / 4), {0.2, 0.05, 0.05}};
-  const OrientedBox along_y{{0.03, 0.01, 0.1 * std::sqrt(2.0)}, turn(Vec3::UnitY(), kPi / 4), {0.05, 0.2, 0.05}};
+  const OrientedBox along_x{{0, 0, 0}, turned_about(Vec3::UnitX(), kPi / 4), {0.2, 0.05, 0.05}};
+  const OrientedBox along_y{{0.03, 0.01, 0.1 * std::sqrt(2.0)}, turned_about(Vec3::UnitY(), kPi / 4), {0.05, 0.2, 0.05}};
   const auto crossed = interface_of(solid_of(along_x), solid_of(along_y), 1e-6);
   ASSERT_TRUE(crossed);
   ASSERT_EQ(crossed->points.size(), 1u);
@@ -139,7 +139,7 @@ TEST(Interface, EdgesAndCorners) {
 }
 
 TEST(Interface, MeasuredBoxesRestAsWholesThoughAskew) {
-  const OrientedBox askew{{0, 0, 0.1 + 0.052}, turn(Vec3::UnitY(), radians(3)), {0.08, 0.06, 0.05}};
+  const OrientedBox askew{{0, 0, 0.1 + 0.052}, turned_about(Vec3::UnitY(), radians(3)), {0.08, 0.06, 0.05}};
   const auto met = interface_of(solid_of(kBase), solid_of(askew), 0.008);
   ASSERT_TRUE(met);
   ASSERT_EQ(met->points.size(), 4u);

@@ -148,7 +148,9 @@ TEST(Boxes, ALongOneThatLeansALittleLeansSo) {
     const Perceived p = perceive(render(scene));
     ASSERT_EQ(p.fitted.size(), 1u) << lean;
     EXPECT_LT(degrees(line_angle(p.fitted[0].box.axes.col(2), plank.axes.col(2))), 1.0) << lean;
-    if (lean == 0.0) EXPECT_EQ(p.fitted[0].box.axes(2, 2), 1.0);  // level, not nearly so
+    if (lean == 0.0) {
+      EXPECT_EQ(p.fitted[0].box.axes(2, 2), 1.0);  // level, not nearly so
+    }
   }
 }
 

@@ -33,9 +33,9 @@ struct Scene {
 
   Scene(const std::vector<OrientedBox>& object, const RigidTransform& T, double off) {
     const std::vector<OrientedBox> boxes = moved(object, T);
-    frame = photo_fixture::render(boxes, pose()).frame;
+    frame = photo_fixture::render(boxes, camera_pose()).frame;
     completion = photo_fixture::scene_of(boxes);
-    completion.T_world_camera = pose();
+    completion.T_world_camera = camera_pose();
     Random random(5);
     for (Cuboid& c : completion.cuboids)
       for (int k = 0; k < 3; ++k) {

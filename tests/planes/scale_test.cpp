@@ -10,13 +10,6 @@
 namespace unseen::planes {
 namespace {
 
-PointCloud plane_cloud(double spacing, double noise) {
-  PointCloud cloud;
-  Random random(9);
-  test::add_rectangle(cloud, {0, 0, 0}, {2, 0, 0.4}, {0, 1.6, 0}, spacing, noise, random);
-  return cloud;
-}
-
 double extent_of(const PointCloud& cloud) {
   CloudSource source(cloud);
   Context context;
@@ -34,27 +27,27 @@ TEST(ChooseScale, FollowsTheSpacing) {
   for (const double spacing : {0.01, 0.02, 0.04}) {
     // The sixth neighbour of a grid of one point per spacing² lies at about √(6/π) spacings.
     const double expected = 1.25 * std::sqrt(6 / kPi) * spacing;
-    const double scale = scale_of(plane_cloud(spacing, 0.0));
+    const double scale = scale_of(test::plane_cloud(spacing, 0.0));
     EXPECT_GT(scale, 0.8 * expected);
     EXPECT_LT(scale, 1.2 * expected);
   }
 }
 
 TEST(ChooseScale, FollowsTheNoiseWhereThatIsLarger) {
-  const double scale = scale_of(plane_cloud(0.02, 0.015));
+  const double scale = scale_of(test::plane_cloud(0.02, 0.015));
   EXPECT_GT(scale, 2.0 * 0.015);
   EXPECT_LT(scale, 5.0 * 0.015);
 }
 
 /// Thinning to a sample must not coarsen the estimate.
 TEST(ChooseScale, IsThatOfTheWholeCloud) {
-  const PointCloud cloud = plane_cloud(0.0023, 0.0);  // 600 000 points, twice what a sample holds
+  const PointCloud cloud = test::plane_cloud(0.0023, 0.0);  // 600 000 points, twice what a sample holds
   const double expected = 1.25 * std::sqrt(6 / kPi) * 0.0023;
   EXPECT_NEAR(scale_of(cloud), expected, 0.2 * expected);
 }
 
 TEST(ChooseScale, TakesWhatItIsTold) {
-  const PointCloud cloud = plane_cloud(0.02, 0.0);
+  const PointCloud cloud = test::plane_cloud(0.02, 0.0);
   Options options;
   options.relative_scale = 0.05;
   EXPECT_NEAR(scale_of(cloud, options), 0.05 * extent_of(cloud), 1e-12);
@@ -67,7 +60,7 @@ TEST(ChooseScale, TakesWhatItIsTold) {
 
 /// Noise above the spacing: the nearest points alone would show little of it.
 TEST(ChooseScale, FollowsNoiseFarAboveTheSpacing) {
-  const double scale = scale_of(plane_cloud(0.008, 0.02));
+  const double scale = scale_of(test::plane_cloud(0.008, 0.02));
   EXPECT_GT(scale, 3.0 * 0.02);
   EXPECT_LT(scale, 5.0 * 0.02);
 }
@@ -89,13 +82,13 @@ TEST(ChooseScale, DoesNotDependOnTheOrder) {
 
 /// As in many frames of a depth camera: thousands of points lie nearer than the noise is thick.
 TEST(ChooseScale, FollowsNoiseOfAVeryDenseCloud) {
-  const double scale = scale_of(plane_cloud(0.0014, 0.015));
+  const double scale = scale_of(test::plane_cloud(0.0014, 0.015));
   EXPECT_GT(scale, 3.0 * 0.015);
   EXPECT_LT(scale, 5.0 * 0.015);
 }
 
 TEST(ChooseScale, StrayPointsDoNotCount) {
-  PointCloud cloud = plane_cloud(0.02, 0.002);
+  PointCloud cloud = test::plane_cloud(0.02, 0.002);
   const double without = scale_of(cloud);
   Random random(11);
   for (std::size_t i = cloud.size() / 4; i > 0; --i)

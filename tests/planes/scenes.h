@@ -33,6 +33,14 @@ inline void add_rectangle(PointCloud& cloud, const Vec3& origin, const Vec3& a, 
                                 b * ((k + random.uniform()) / nb) + noise * random.normal() * n);
 }
 
+/// A slanting rectangle of 2 by 1.6 m.
+inline PointCloud plane_cloud(double spacing, double noise) {
+  PointCloud cloud;
+  Random random(9);
+  add_rectangle(cloud, {0, 0, 0}, {2, 0, 0.4}, {0, 1.6, 0}, spacing, noise, random);
+  return cloud;
+}
+
 /// The six inner faces of a box, its corner at `origin`.
 inline PointCloud box_cloud(const Vec3& origin, const Vec3& size, double spacing, double noise,
                             std::uint64_t seed) {

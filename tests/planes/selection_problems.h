@@ -10,6 +10,8 @@
 
 namespace unseen::planes::test {
 
+inline const Context kContext;
+
 /// A selection problem like those of scenes: patches cluster about a few true frames, further frames resemble
 /// these, some pairs have no candidate. Every patch has its own local fit among the candidates.
 inline SelectionProblem random_problem(int patches, int frames, double lambda, int fixed,

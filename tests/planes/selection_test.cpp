@@ -14,8 +14,6 @@ namespace {
 using test::energy_by_definition;
 using test::random_problem;
 
-const Context kContext;
-
 TEST(EnergyOf, IsTheDefinition) {
   Random random(1);
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
@@ -69,9 +67,9 @@ TEST(SolveLocal, FindsTheBestOfAllLabelingsOfTinyProblems) {
     const SelectionProblem p =
         random_problem(4 + seed % 2, 3, 0.1 + 0.2 * (seed % 5), static_cast<int>(seed % 2), seed);
     const double best = brute_force(p);
-    const Labels labels = solve_local(p, kContext);
+    const Labels labels = solve_local(p, test::kContext);
     EXPECT_NEAR(energy_of(p, labels).total(), best, 1e-9 + 1e-6 * best) << "seed " << seed;
-    const double bound = lower_bound(p, energy_of(p, labels).total(), kContext);
+    const double bound = lower_bound(p, energy_of(p, labels).total(), test::kContext);
     EXPECT_LE(bound, best + 1e-9) << "seed " << seed;
     EXPECT_GE(bound, 0.0);
   }
@@ -87,7 +85,7 @@ TEST(SolveLocal, IsNeverWorseThanEveryLocalFit) {
   for (const double lambda : {0.05, 0.3, 0.5, 0.7, 0.95, 0.99, 1.0})
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       const SelectionProblem p = random_problem(30, 8, lambda, 0, seed);
-      EXPECT_LE(energy_of(p, solve_local(p, kContext)).total(), energy_of(p, local_fits(p)).total() + 1e-9)
+      EXPECT_LE(energy_of(p, solve_local(p, test::kContext)).total(), energy_of(p, local_fits(p)).total() + 1e-9)
           << "lambda " << lambda << " seed " << seed;
     }
 }
@@ -95,7 +93,7 @@ TEST(SolveLocal, IsNeverWorseThanEveryLocalFit) {
 TEST(SolveLocal, LambdaOneKeepsEveryLocalFit) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const SelectionProblem p = random_problem(25, 6, 1.0, 0, seed);
-    EXPECT_EQ(solve_local(p, kContext), local_fits(p));
+    EXPECT_EQ(solve_local(p, test::kContext), local_fits(p));
   }
 }
 
@@ -109,7 +107,7 @@ TEST(SolveLocal, LambdaZeroAsksForOneFrame) {
         if (!std::isfinite(p.data(j, k))) p.data(j, k) = 50;
         p.orientation(j, k) = k;
       }
-    const Labels labels = solve_local(p, kContext);
+    const Labels labels = solve_local(p, test::kContext);
     EXPECT_EQ(std::set<int>(labels.begin(), labels.end()).size(), 1u);
     EXPECT_EQ(energy_of(p, labels).data + energy_of(p, labels).irregularity, 0.0);
   }
@@ -119,13 +117,13 @@ TEST(SolveLocal, GivenAStartItIsNeverWorse) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const SelectionProblem p = random_problem(100, 10, 0.5, 0, seed);  // beyond the exhaustive size
     const double start = energy_of(p, local_fits(p)).total();
-    EXPECT_LE(energy_of(p, solve_local(p, kContext, local_fits(p))).total(), start + 1e-9);
+    EXPECT_LE(energy_of(p, solve_local(p, test::kContext, local_fits(p))).total(), start + 1e-9);
   }
 }
 
 TEST(SolveLocal, FixedFramesCostWhetherTheyServeOrNot) {
   const SelectionProblem p = random_problem(10, 4, 0.5, 2, 3);
-  const Labels labels = solve_local(p, kContext);
+  const Labels labels = solve_local(p, test::kContext);
   EXPECT_GE(energy_of(p, labels).irregularity, 0.5 * p.irregularity(0, 1) - 1e-12);
 }
 
@@ -145,7 +143,7 @@ TEST(LowerBound, IsTightWithoutSeams) {
     SelectionProblem p = random_problem(5, 3, 0.5, 0, seed);
     p.neighbours.clear();
     const double best = brute_force(p);
-    EXPECT_NEAR(lower_bound(p, best + 1e-9, kContext), best, 1e-6);
+    EXPECT_NEAR(lower_bound(p, best + 1e-9, test::kContext), best, 1e-6);
   }
 }
 

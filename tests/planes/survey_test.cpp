@@ -145,15 +145,8 @@ TEST(SpaceOf, ALineIsNoDrawing) {
   EXPECT_FALSE(space_of(look_at(cloud), false).is_2d());
 }
 
-PointCloud plane_cloud(double spacing, double noise) {
-  PointCloud cloud;
-  Random random(9);
-  test::add_rectangle(cloud, {0, 0, 0}, {2, 0, 0.4}, {0, 1.6, 0}, spacing, noise, random);
-  return cloud;
-}
-
 TEST(NormalsUsable, OnlyIfTheyAgreeWithTheSurface) {
-  PointCloud cloud = plane_cloud(0.02, 0.001);
+  PointCloud cloud = test::plane_cloud(0.02, 0.001);
   const auto usable = [&] {
     const Survey s = look_at(cloud);
     return normals_usable(s, {});
