@@ -61,6 +61,10 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
 /// no longer than what hangs. Such bodies are no longer `held`.
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context);
 
+/// What stands only because contacts within tolerance count, and would fall as the boxes are, becomes rigid with a neighbour: slivers of round
+/// things on their edges, mostly. What masks tell apart stays apart.
+void hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+
 /// Lowers the residual, at rest and under the pushes, by moves of faces: hidden ones within their rooms, seen ones within
 /// noise (Eq. 4.4). Every step is one that `admissible` allows.
 void lower_residual(const Problem& problem, const Rooms& rooms, const Admissible& admissible, const std::vector<char>& held,

@@ -58,9 +58,6 @@ Retreat retreat_of(const DepthView& view, const Problem& problem, const std::vec
   return best;
 }
 
-/// A mask said so.
-bool are_known_objects(const Problem& problem, int a, int b) { return !problem.cuboid(a).label.empty() && !problem.cuboid(b).label.empty(); }
-
 }  // namespace
 
 void part_overlaps(const DepthView& view, Problem& problem) {
@@ -82,7 +79,7 @@ void part_overlaps(const DepthView& view, Problem& problem) {
   for (int b = problem.supports_count(); b < problem.bodies(); ++b) {
     problem.cuboids[b - problem.supports_count()].initial = boxes[b - problem.supports_count()];
     for (int a = problem.supports_count(); a < b; ++a)
-      if (!problem.is_one_object(a, b) && !are_known_objects(problem, a, b) && depth_of(problem, boxes, a, b) > problem.pair_tolerance(a, b))
+      if (!problem.is_one_object(a, b) && !problem.are_known_objects(a, b) && depth_of(problem, boxes, a, b) > problem.pair_tolerance(a, b))
         problem.joints.push_back({a, b});
   }
 }

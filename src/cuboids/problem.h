@@ -54,6 +54,8 @@ struct Problem {
   bool is_one_object(int a, int b) const {
     return !is_support(a) && !is_support(b) && cuboid(a).object >= 0 && cuboid(a).object == cuboid(b).object;
   }
+  /// A mask said so.
+  bool are_known_objects(int a, int b) const { return !is_support(a) && !is_support(b) && !cuboid(a).label.empty() && !cuboid(b).label.empty(); }
 };
 
 /// Pairs that connect the pieces of every object, each to its nearest.

@@ -10,7 +10,7 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kFlush = 1e-7;      // m, faces this near are one plane
+constexpr double kFlushFace = 1e-7;      // m, faces this near are one plane
 constexpr double kLeastArea = 1e-4;  // m²
 constexpr double kLeastEdge = 5e-3;  // m
 constexpr double kInside = 1e-3;     // m, an edge counts only so far inside the other's face
@@ -48,12 +48,12 @@ double shared_area(const BoxFace& a, const BoxFace& b) {
 
 /// m, of the edge from p to q that lies well within a face.
 double length_on(const BoxFace& face, const Vec3& p, const Vec3& q) {
-  if (std::abs(face.normal.dot(p - face.center)) > kFlush || std::abs(face.normal.dot(q - face.center)) > kFlush)
+  if (std::abs(face.normal.dot(p - face.center)) > kFlushFace || std::abs(face.normal.dot(q - face.center)) > kFlushFace)
     return 0.0;
   double low = 0.0, high = 1.0;
   for (const auto& [axis, half] : {std::pair{face.u, face.half_u}, {face.v, face.half_v}}) {
     const double from = axis.dot(p - face.center), to = axis.dot(q - face.center), reach = half - kInside;
-    if (std::abs(to - from) < kFlush) {
+    if (std::abs(to - from) < kFlushFace) {
       if (std::abs(from) > reach) return 0.0;
       continue;
     }
@@ -79,7 +79,7 @@ bool edge_lies_on(const OrientedBox& a, const OrientedBox& b) {
 /// True if an edge or a face of the box lies on the plane.
 bool touches_plane(const OrientedBox& box, const Plane& plane) {
   int near = 0;
-  for (const Vec3& corner : corners_of(box)) near += std::abs(plane.signed_distance(corner)) < kFlush;
+  for (const Vec3& corner : corners_of(box)) near += std::abs(plane.signed_distance(corner)) < kFlushFace;
   return near >= 2;
 }
 
@@ -101,9 +101,9 @@ bool boxes_touch(const OrientedBox& a, const OrientedBox& b) {
       for (int m = 0; m < 3; ++m)
         for (const double other : {-1.0, 1.0}) {
           const BoxFace against = face_of(b, m, other);
-          const bool opposed = (face.normal + against.normal).norm() < kFlush;
+          const bool opposed = (face.normal + against.normal).norm() < kFlushFace;
           const double gap = face.normal.dot(against.center - face.center);
-          if (opposed && std::abs(gap) < kFlush && shared_area(face, against) > kLeastArea) return true;
+          if (opposed && std::abs(gap) < kFlushFace && shared_area(face, against) > kLeastArea) return true;
         }
     }
   return edge_lies_on(a, b) || edge_lies_on(b, a);

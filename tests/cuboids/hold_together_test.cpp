@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// What stands only by the tolerance of its contacts.
+#include <gtest/gtest.h>
+
+#include "box_problems.h"
+#include "cuboids/complete.h"
+
+namespace unseen::cuboids {
+namespace {
+
+/// A card that is thinner than the tolerance of contacts, standing on its long edge `lean` (rad) out of the upright, 2 mm beside a block that it does not reach.
+Problem card_beside_block(double lean, double thickness = 0.003) {
+  OrientedBox card = box({0, 0, 0}, {thickness, 0.1, 0.12});
+  card.axes = Eigen::AngleAxisd(lean, Vec3::UnitY()).toRotationMatrix();
+  card.center.z() = 0.5 * (thickness * std::abs(std::sin(lean)) + 0.12 * std::cos(lean));
+  return problem_of({card, box({-0.002 - 0.5 * thickness - 0.05 - 0.06 * std::abs(std::sin(lean)), 0, 0.1}, {0.1, 0.1, 0.2})});
+}
+
+std::vector<std::array<int, 2>> fixed_in(const Problem& problem) {
+  Context context;
+  Arrangement arrangement = arrange(problem, {});
+  hold_together(problem, std::vector<char>(problem.bodies(), 0), arrangement, context);
+  return arrangement.fixed;
+}
+
+TEST(HoldTogether, ACardThatWouldFallIsHeldByItsNeighbour) {
+  for (const double lean : {-0.04, 0.0, 0.04}) EXPECT_EQ(fixed_in(card_beside_block(lean)), (std::vector{std::array{1, 2}})) << lean;
+}
+
+TEST(HoldTogether, WhatMasksTellApartStaysApart) {
+  Problem problem = card_beside_block(0.04);
+  problem.cuboids[0].label = "card";
+  problem.cuboids[1].label = "block";
+  EXPECT_TRUE(fixed_in(problem).empty());
+}
+
+TEST(HoldTogether, WhatStandsAloneNeedsNobody) { EXPECT_TRUE(fixed_in(card_beside_block(0.0, 0.02)).empty()); }
+
+TEST(HoldTogether, NobodyHoldsWhatStandsFarOff) {
+  Problem problem = card_beside_block(0.04);
+  problem.cuboids[1].initial.center.x() -= 0.1;
+  EXPECT_TRUE(fixed_in(problem).empty());
+}
+
+}  // namespace
+}  // namespace unseen::cuboids
