@@ -122,6 +122,7 @@ class EvenSample {
       places_.push_back(x);
       slot = static_cast<std::uint32_t>(places_.size());
       if (places_.size() > kSample) thin();
+      if (2 * places_.size() > slots_.size()) fill(2 * slots_.size());
       return;
     }
     twins_ = true;
@@ -137,8 +138,9 @@ class EvenSample {
 
  private:
   std::uint32_t& slot_of(std::uint64_t hash) {
-    std::size_t at = hash % kSlots;
-    while (slots_[at] != 0 && places_[slots_[at] - 1].hash != hash) at = (at + 1) % kSlots;
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = hash & mask;
+    while (slots_[at] != 0 && places_[slots_[at] - 1].hash != hash) at = (at + 1) & mask;
     return slots_[at];
   }
   void thin() {
@@ -146,17 +148,19 @@ class EvenSample {
       ++zeros_;
       std::erase_if(places_, [&](const Sampled& x) { return !wants(x.hash); });
     }
-    std::fill(slots_.begin(), slots_.end(), 0);
+    fill(slots_.size());
+  }
+  void fill(std::size_t slots) {
+    slots_.assign(slots, 0);
     for (std::size_t i = 0; i < places_.size(); ++i)
       slot_of(places_[i].hash) = static_cast<std::uint32_t>(i + 1);
   }
 
-  static constexpr std::size_t kSlots = std::size_t{1} << 20;
   int zeros_ = 0;
   bool twins_ = false;
   std::vector<Sampled> places_;
   std::vector<std::uint32_t> slots_ =
-      std::vector<std::uint32_t>(kSlots);  ///< index + 1 into places_, 0 = free
+      std::vector<std::uint32_t>(4096);  ///< a power of two; index + 1 into places_, 0 = free
 };
 
 }  // namespace
