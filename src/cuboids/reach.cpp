@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
+#include <array>
 #include <limits>
 
+#include "cuboids/clip.h"
 #include "cuboids/problem.h"
 #include "cuboids/reach.h"
 
@@ -11,18 +13,6 @@ namespace {
 
 constexpr double kParallel = 1e-6;
 constexpr double kInset = 0.05, kMostInset = 0.5;  // of a half size: bodies flush with the sides of the swept space are not in it
-
-/// The part of a polygon on the inner side of a plane.
-std::vector<Vec3> clip(const std::vector<Vec3>& polygon, const Vec3& normal, double offset) {
-  std::vector<Vec3> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double dp = normal.dot(p) - offset, dq = normal.dot(q) - offset;
-    if (dp <= 0.0) out.push_back(p);
-    if ((dp < 0.0 && dq > 0.0) || (dp > 0.0 && dq < 0.0)) out.push_back(p + dp / (dp - dq) * (q - p));
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -38,8 +28,8 @@ std::optional<double> reach(const OrientedBox& box, int face, const ConvexSolid&
       const Vec3 axis = box.axes.col(side);
       const double inset = std::clamp(tolerance, kInset * box.half_size[side], kMostInset * box.half_size[side]);
       const double middle = axis.dot(box.center), half = box.half_size[side] - inset;
-      polygon = clip(polygon, axis, middle + half);
-      polygon = clip(polygon, -axis, -middle + half);
+      polygon = clip(polygon, {axis, middle + half});
+      polygon = clip(polygon, {-axis, -middle + half});
     }
     for (const Vec3& p : polygon) {
       nearest = std::min(nearest, direction.dot(p) - start);
@@ -56,24 +46,24 @@ std::optional<double> reach(const OrientedBox& box, int face, const Support& oth
   const double towards = -direction.dot(other.plane.normal);
   if (towards < kParallel) return std::nullopt;
   double lowest = std::numeric_limits<double>::infinity();
-  Vec3 corner = box.center;
+  std::vector<Vec3> shadow;  // of the face on the plane, along its way
   for (int i = 0; i < 4; ++i) {
+    const std::array<double, 2> sides = {i == 0 || i == 3 ? -1.0 : 1.0, i < 2 ? -1.0 : 1.0};
     Vec3 p = box.center + direction * box.half_size[face / 2];
-    int bit = 0;
-    for (int side = 0; side < 3; ++side)
-      if (side != face / 2) p += ((i >> bit++) & 1 ? 1.0 : -1.0) * box.half_size[side] * box.axes.col(side);
-    if (other.plane.signed_distance(p) < lowest) {
-      lowest = other.plane.signed_distance(p);
-      corner = p;
+    for (int k = 0; k < 2; ++k) {
+      const int side = (face / 2 + 1 + k) % 3;
+      p += sides[k] * box.half_size[side] * box.axes.col(side);
     }
+    const double distance = other.plane.signed_distance(p);
+    lowest = std::min(lowest, distance);
+    shadow.push_back(p + distance / towards * direction);
   }
-  const double length = std::max(0.0, lowest / towards);
-  const Vec3 foot = corner + length * direction;
   for (std::size_t i = 0; i < other.outline.size(); ++i) {
-    const Vec3 &p = other.outline[i], &q = other.outline[(i + 1) % other.outline.size()];
-    if (other.plane.normal.dot((q - p).cross(foot - p)) < 0.0) return std::nullopt;
+    const Vec3 outward = (other.outline[(i + 1) % other.outline.size()] - other.outline[i]).cross(other.plane.normal);
+    shadow = clip(shadow, {outward, outward.dot(other.outline[i])});
   }
-  return length;
+  if (shadow.empty()) return std::nullopt;
+  return std::max(0.0, lowest / towards);
 }
 
 }  // namespace unseen::cuboids

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -16,6 +17,7 @@ constexpr double kCarryShare = 1.0 / 3.0;     // of what the surface that carrie
 constexpr double kCarryHeight = 0.5;          // m
 constexpr double kWallShare = 0.25;           // of the square of the scene's radius
 constexpr double kMostBehindWall = 0.03;      // of the points
+constexpr double kOver = 0.25, kClearlyBehind = 0.05;  // of a wall's height; m
 constexpr double kDeskArea = 0.4;  // m²; what is flat and as large may carry things itself
 constexpr double kBelow = 0.1, kBelowShare = 0.05;  // m below the ground, share of the points
 constexpr int kColumns = 512;
@@ -84,6 +86,34 @@ bool bounds_the_scene(const Scan& scan, const Level& level, const Vec3& u, const
     ++(d < 0 ? behind : before);
   }
   return static_cast<double>(behind) <= kMostBehindWall * static_cast<double>(behind + before);
+}
+
+/// Whether something was seen over most of its upper edge that lies behind it: the front of a cupboard, not a wall.
+bool ends_before_its_background(const Scan& scan, const Level& level, const Vec3& across, const Vec3& along) {
+  Vec2 low = level.outline.front(), high = low;
+  for (const Vec2& p : level.outline) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double top = high.y() + kOver * (high.y() - low.y());
+  std::array<char, 20> behind{};  // parts of the edge
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const double share = (across.dot(scan.points[i]) - low.x()) / (high.x() - low.x()), height = along.dot(scan.points[i]);
+    const double noise = 6.0 * scan.graph.sigma[i];
+    if (share <= 0.0 || share >= 1.0 || height < high.y() - noise || height > top) continue;
+    if (level.plane.signed_distance(scan.points[i]) < -std::max(noise, kClearlyBehind)) behind[static_cast<std::size_t>(share * behind.size())] = 1;
+  }
+  return 2 * std::count(behind.begin(), behind.end(), 1) > static_cast<std::ptrdiff_t>(behind.size());
+}
+
+/// Walls go down to the ground, behind what hides them there.
+void extend_down(Level& wall, const Plane& ground, const Vec3& across, const Vec3& along) {
+  std::vector<Vec2> corners = wall.outline;
+  for (const Vec2& p : wall.outline) {
+    const double height = ground.signed_distance(wall.plane.project(p.x() * across + p.y() * along));
+    corners.emplace_back(p.x(), p.y() - std::max(0.0, height) / along.dot(ground.normal));
+  }
+  wall.outline = convex_outline(std::move(corners));
 }
 
 std::vector<Vec3> lifted(const Level& level, const Vec3& u, const Vec3& v) {
@@ -181,8 +211,9 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up) {
     if (wall.area < smallest_wall) continue;
     const Vec3 across = found.up.cross(wall.plane.normal).normalized(), along = wall.plane.normal.cross(across);
     set_outline(scan, wall, across, along);
-    if (bounds_the_scene(scan, wall, across, along))
-      add_support(found, scan, wall, SupportKind::wall, lifted(wall, across, along));
+    if (!bounds_the_scene(scan, wall, across, along) || ends_before_its_background(scan, wall, across, along)) continue;
+    extend_down(wall, ground->plane, across, along);
+    add_support(found, scan, wall, SupportKind::wall, lifted(wall, across, along));
   }
   for (Level& ceiling : coplanar(scan, downward)) {
     if (ceiling.area < smallest_wall) continue;

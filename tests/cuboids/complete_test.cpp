@@ -31,6 +31,18 @@ TEST(Reach, IsTheDistanceToTheNearestPointInTheWay) {
   EXPECT_FALSE(reach(mover, 5, Support{0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}}));
 }
 
+TEST(Reach, MeetsAWallOfWhichOnlyTheUpperPartWasSeen) {
+  const OrientedBox mover = box({0, 0, 0.3}, {0.4, 0.2, 0.6});
+  const auto wall = [](double left, double right, double from) {
+    return Support{1, SupportKind::wall, {-Vec3::UnitY(), -1.0}, {{left, 1, from}, {right, 1, from}, {right, 1, 2}, {left, 1, 2}}};
+  };
+  for (const double from : {0.0, 0.5}) EXPECT_NEAR(*reach(mover, 3, wall(-1, 1, from)), 0.9, 1e-12);
+  EXPECT_NEAR(*reach(mover, 3, wall(0.1, 1, 0.2)), 0.9, 1e-12);
+  EXPECT_FALSE(reach(mover, 3, wall(-1, 1, 0.7)));    // below it
+  EXPECT_FALSE(reach(mover, 3, wall(0.3, 1, 0.0)));   // beside it
+  EXPECT_FALSE(reach(mover, 2, wall(-1, 1, 0.0)));
+}
+
 TEST(Search, DoesNotDependOnTurnsAndMirrors) {
   const auto cost = [](double turn, double mirror) {
     std::vector<OrientedBox> boxes;

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include "cuboids/interface.h"
 #include "perception_scenes.h"
+#include "unseen/cuboids/cuboids.h"
 
 namespace unseen::cuboids::test {
 namespace {
@@ -98,6 +100,21 @@ TEST(Walls, FarAwayAreOnesToo) {
       EXPECT_LT(p.seen.supports[1].plane.normal.y(), -0.999) << distance;
       EXPECT_EQ(p.cuboids.size(), 1u) << distance;
     }
+}
+
+TEST(Walls, AreNotPiercedByWhatStandsAgainstThem) {
+  for (const Vec3& size : {Vec3(1.0, 0.2, 0.8), Vec3(0.6, 0.12, 0.5), Vec3(0.8, 0.3, 0.9)}) {
+    Scene scene = before_a_wall(2.2);
+    scene.height = 1.4;
+    scene.boxes[0] = upright(0.1, 2.2 - 0.5 * size.y(), 0, size, 0);
+    Context context;
+    const Completion completion = complete_cuboids(render(scene), Options{}, context);
+    ASSERT_EQ(completion.cuboids.size(), 1u);
+    ASSERT_EQ(completion.supports.size(), 2u);
+    for (const Vec3& corner : solid_of(completion.cuboids[0].box).vertices)
+      EXPECT_GT(completion.supports[1].plane.signed_distance(corner), -0.015) << size.transpose();
+    EXPECT_EQ(completion.fixed_contacts, 0);
+  }
 }
 
 TEST(Walls, OfACornerAreBothFound) {
