@@ -122,6 +122,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   link_hanging(problem, view, choice.held, arrangement, context);
   lower_residual(problem, rooms, admissible, choice.held, arrangement, context);
   end_overlaps(view, problem, choice.held, arrangement);
+  settle(problem, choice.held, arrangement, context);
   hold_together(problem, choice.held, arrangement, context);
   describe(problem, choice.held, arrangement, result);
   summary.counts.emplace_back("contacts", result.contacts.size());

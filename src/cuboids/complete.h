@@ -61,6 +61,14 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
 /// no longer than what hangs. Such bodies are no longer `held`.
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context);
 
+inline constexpr double kAtRest = 1e-3;  ///< residual: what is not balanced falls in the end, if slowly
+/// The same problem without tolerance: only what touches in the boxes as they will be written touches, but for a rest that counts for nothing.
+Problem as_written(const Problem& problem);
+
+/// Boxes that do not quite touch what they rest on, or lean on it askew by noise, come to lie on it: they follow their collapse motion
+/// (statics.h) from contact to contact, by a few tolerances at most. What would go farther stays where it was.
+void settle(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+
 /// What stands only because contacts within tolerance count, and would fall as the boxes are, becomes rigid with a neighbour: slivers of round
 /// things on their edges, mostly. What masks tell apart stays apart.
 void hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);

@@ -113,9 +113,10 @@ std::optional<Interface> along_edges(const ConvexSolid& a, const ConvexSolid& b,
       const auto normal = middle_normal(*on_a, *on_b);
       if (!normal) continue;
       nearest = common->apart;
-      best = Interface{*normal, INFINITY, {}};
+      best = Interface{*normal, INFINITY, {}, {}};
       for (int i = 0; i < 2; ++i) {
-        best->gap = std::min(best->gap, normal->dot(common->on_b[i] - common->on_a[i]));
+        best->gaps.push_back(normal->dot(common->on_b[i] - common->on_a[i]));
+        best->gap = std::min(best->gap, best->gaps.back());
         best->points.push_back(0.5 * (common->on_a[i] + common->on_b[i]));
       }
     }

@@ -9,22 +9,29 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kExactly = 0.03;   // tolerances: contacts of the boxes as they will be written
-constexpr double kAtRest = 1e-3;    // residual: what is not balanced falls in the end, if slowly
 constexpr double kThin = 4.0;       // tolerances
 constexpr double kNudge = 0.03;     // g: sticks on end bear less, and do not stay for long
-constexpr int kMostWork = 5000;     // fixed contacts that may be tried, times bodies
+constexpr double kWorth = 0.5;      // of the unrest of those that it joins: what a fixed contact must end
+constexpr int kMostWork = 5000;     // fixed contacts that may be tried, times bodies, or little more
 
 /// Statics of boxes that only touch where they do.
 struct Exact {
   std::vector<int> group;
-  std::vector<char> is_firm, falls;  ///< a body
-  double unrest = 0;                 ///< what is out of balance, summed over what falls
+  std::vector<char> is_firm;   ///< a body
+  std::vector<double> unrest;  ///< a body: what is out of balance, summed over loads; 0 = at rest
+  double total = 0;
+
+  bool falls(int body) const { return unrest[body] > 0.0; }
+  double unrest_of_group(int body) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < group.size(); ++i) sum += group[i] == group[body] ? unrest[i] : 0.0;
+    return sum;
+  }
 };
 
 Exact exactly(const Problem& exact, const Arrangement& arrangement, const std::vector<Touch>& touches, const std::vector<char>& held) {
   const Structure s = structure_of(exact, arrangement, touches, held);
-  Exact out{s.group, std::vector<char>(exact.bodies(), 0), std::vector<char>(exact.bodies(), 0), 0.0};
+  Exact out{s.group, std::vector<char>(exact.bodies(), 0), std::vector<double>(exact.bodies(), 0.0), 0.0};
   for (int i = 0; i < exact.bodies(); ++i) out.is_firm[i] = s.bodies[s.group[i]].is_static;
   std::vector<Vec3> forces;
   for (const Vec3& load : load_cases(kNudge)) {
@@ -33,8 +40,8 @@ Exact exactly(const Problem& exact, const Arrangement& arrangement, const std::v
     for (int i = exact.supports_count(); i < exact.bodies(); ++i) {
       const double unrest = b.motion[s.group[i]].norm();
       if (out.is_firm[i] || unrest < kAtRest) continue;
-      out.falls[i] = 1;
-      out.unrest += unrest;
+      out.unrest[i] += unrest;
+      out.total += unrest;
     }
   }
   return out;
@@ -49,33 +56,31 @@ bool is_thin(const Problem& problem, const Arrangement& arrangement, int body) {
 }  // namespace
 
 void hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
-  Problem exact = problem;
-  for (double& tolerance : exact.tolerance) tolerance *= kExactly;
+  const Problem exact = as_written(problem);
   const std::vector<Touch> near = touching_pairs(problem, arrangement), touches = touching_pairs(exact, arrangement);
   Exact now = exactly(exact, arrangement, touches, held);
-  int work = 0;
-  while (now.unrest > 0.0) {
-    const auto needs_help = [&](int body) { return now.falls[body] && is_thin(problem, arrangement, body); };
+  for (int work = 0; now.total > 0.0 && work <= kMostWork;) {
     const auto may_help = [&](const Touch& t) {
       return !now.is_firm[t.a] && !now.is_firm[t.b] && now.group[t.a] != now.group[t.b] && !problem.are_known_objects(t.a, t.b) &&
-             (needs_help(t.a) || needs_help(t.b));
+             (now.falls(t.a) || now.falls(t.b)) && (is_thin(problem, arrangement, t.a) || is_thin(problem, arrangement, t.b));
     };
     std::optional<Exact> best;
-    std::array<int, 2> pair;
+    std::array<int, 2> link;
     for (const Touch& touch : near) {
       if (!may_help(touch)) continue;
-      if ((work += problem.bodies()) > kMostWork) return;
+      work += problem.bodies();
       context.check();
       Arrangement joined = arrangement;
       joined.fixed.push_back({touch.a, touch.b});
       Exact then = exactly(exact, joined, touches, held);
-      if (then.unrest >= (best ? *best : now).unrest) continue;
+      const double before = now.unrest_of_group(touch.a) + now.unrest_of_group(touch.b);
+      if (now.total - then.total < kWorth * before || (best && then.total >= best->total)) continue;
       best = std::move(then);
-      pair = {touch.a, touch.b};
+      link = {touch.a, touch.b};
     }
-    if (!best) return;
+    if (!best) break;
     now = std::move(*best);
-    arrangement.fixed.push_back(pair);
+    arrangement.fixed.push_back(link);
     std::sort(arrangement.fixed.begin(), arrangement.fixed.end());
   }
 }

@@ -111,9 +111,11 @@ std::optional<Interface> rest(const Seat& seat, const ConvexSolid& body, double 
       touching = lowest_edge(common, seat.plane, band);
   }
   thin(touching, 1e-6 * body.radius);
-  Interface result{seat.plane.normal, low, {}};
-  for (const Vec3& p : touching)
-    result.points.push_back(p - 0.5 * seat.plane.signed_distance(p) * seat.plane.normal);
+  Interface result{seat.plane.normal, low, {}, {}};
+  for (const Vec3& p : touching) {
+    result.gaps.push_back(seat.plane.signed_distance(p));
+    result.points.push_back(p - 0.5 * result.gaps.back() * seat.plane.normal);
+  }
   return result;
 }
 
@@ -176,7 +178,7 @@ std::optional<Interface> crossing(const ConvexSolid& a, const ConvexSolid& b, co
       const double s = (q - p).cross(v).dot(across) / across.squaredNorm();
       const double t = (q - p).cross(u).dot(across) / across.squaredNorm();
       if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) continue;
-      return Interface{edges.normal, edges.gap, {0.5 * (p + s * u + q + t * v)}};
+      return Interface{edges.normal, edges.gap, {0.5 * (p + s * u + q + t * v)}, {edges.gap}};
     }
   }
   return std::nullopt;

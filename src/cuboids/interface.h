@@ -32,6 +32,7 @@ struct Interface {
   Vec3 normal = Vec3::UnitZ();  ///< from a to b
   double gap = 0;               ///< m, smallest distance along the normal; negative = they overlap by that much
   std::vector<Vec3> points;     ///< 1 (point), 2 (edge) or 3 to 8 (corners of the common face; 4 for aligned boxes)
+  std::vector<double> gaps;     ///< m, between the surfaces at each of them
 };
 
 /// The interface of two convex solids that come within `tolerance` of each other; none if they are farther apart.

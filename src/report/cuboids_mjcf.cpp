@@ -19,13 +19,15 @@ std::string quaternion_of(const Mat3& rotation) {
   return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}", q.w(), q.x(), q.y(), q.z());
 }
 
+constexpr double kApart = 1e-4;  // m: faces that coincide give MuJoCo 2.2 contacts of depth −0.6 m
+
 /// The box as a geom, its place relative to `origin`.
 std::string geom_of(const cuboids::Cuboid& c, const Vec3& origin, int color) {
   const Rgb rgb = frame_color(color);
   return fmt::format(
       "<geom name=\"{} geom\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" mass=\"{:.9g}\" rgba=\"{:.3f} {:.3f} "
       "{:.3f} 1\"/>\n",
-      escape(name_of(c)), attribute_of(c.box.center - origin), quaternion_of(c.box.axes), attribute_of(c.box.half_size), c.mass(),
+      escape(name_of(c)), attribute_of(c.box.center - origin), quaternion_of(c.box.axes), attribute_of((c.box.half_size.array() - kApart).max(0.5 * c.box.half_size.array())), c.mass(),
       rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
 }
 
@@ -38,12 +40,19 @@ Mat3 plane_axes(const Vec3& normal, const Vec3& along) {
   return axes;
 }
 
-/// A support without end is MuJoCo's plane, whose half space is solid; one with an outline is a slab below it, for
-/// there may be things beside or under a desk.
-std::string support_geom(const cuboids::Support& s) {
+/// Whether nothing is below: then it goes on under what hides it.
+bool is_ground(const Completion& c, const cuboids::Support& s) {
+  return &s == &c.supports.front() && std::all_of(c.cuboids.begin(), c.cuboids.end(), [&](const cuboids::Cuboid& cuboid) {
+           return s.plane.signed_distance(cuboid.box.center) > 0.0;
+         });
+}
+
+/// A support without end is MuJoCo's plane, whose half space is solid, and so is the ground; another one with an outline is a slab
+/// below it, for there may be things beside or under a desk.
+std::string support_geom(const Completion& c, const cuboids::Support& s) {
   const std::string name = escape(name_of(s));
   const std::string look = "rgba=\"0.8 0.8 0.78 1\"";
-  if (s.outline.size() < 3) {
+  if (s.outline.size() < 3 || is_ground(c, s)) {
     const Vec3 origin = s.plane.project(Vec3::Zero());
     return fmt::format("    <geom name=\"{}\" type=\"plane\" pos=\"{}\" quat=\"{}\" size=\"0 0 1\" {}/>\n", name,
                        attribute_of(origin), quaternion_of(plane_axes(s.plane.normal, any_orthogonal(s.plane.normal))),
@@ -94,11 +103,11 @@ std::string cuboids_mjcf(const Completion& c, double friction) {
       "  <option timestep=\"0.001\" gravity=\"0 0 -9.81\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" "
       "noslip_iterations=\"5\"/>\n"
       "  <size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>\n"
-      "  <default>\n    <geom friction=\"{:.9g} 0.005 0.0001\"/>\n  </default>\n"
+      "  <default>\n    <geom friction=\"{:.9g} 0.005 0.0001\" solref=\"0.008 1\"/>\n  </default>\n"
       "  <visual>\n    <global offwidth=\"1280\" offheight=\"960\"/>\n  </visual>\n"
       "  <worldbody>\n    <light directional=\"true\" pos=\"0 0 3\" dir=\"0.2 0.3 -1\"/>\n",
       contacts, 3 * contacts, numbers, friction);
-  for (const cuboids::Support& support : c.supports) text += support_geom(support);
+  for (const cuboids::Support& support : c.supports) text += support_geom(c, support);
   for (const RigidGroup& group : rigid_groups(c)) text += group_body(c, group);
   return text + "  </worldbody>\n</mujoco>\n";
 }
