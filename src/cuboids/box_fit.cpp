@@ -3,8 +3,10 @@
 #include "cuboids/box_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace unseen::cuboids {
 namespace {
@@ -14,7 +16,8 @@ const double kAlignedCosine = std::cos(radians(8.0));
 const double kLeastLean = radians(2.0), kMostLean = radians(15.0);
 const double kFaceCosine = std::cos(radians(20.0));
 constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
-constexpr double kLeanSigmas = 4.0;             // standard errors: what leans by less is level
+constexpr double kLeanSigmas = 4.0;             // standard errors: a largest face that leans by less is level …
+constexpr double kSlantSigmas = 2.0;            // … and so is what only two faces together say is slanted
 constexpr double kEnoughExplained = 0.6, kClearlyMore = 0.2;  // shares of the points, for axes that are not level
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
@@ -93,34 +96,43 @@ const Face* largest_face(std::span<const int> points, std::span<const Face* cons
   return largest && largest->points.size() * 2 >= points.size() && largest->rms <= 2.0 ? largest : nullptr;
 }
 
-/// Standard error (rad) of a face's direction in the plane of its normal and `along`. Noise of neighbouring pixels is
-/// not independent: about one point in ten counts.
-double direction_error(const Observation& seen, const Face& face, const Vec3& along) {
-  double mean = 0, squares = 0, sigma = 0;
+/// m: standard deviation of a face's points along a direction.
+double spread_along(const Observation& seen, const Face& face, const Vec3& along) {
+  double mean = 0, squares = 0;
   for (const int i : face.points) {
     const double a = along.dot(seen.points[i] - face.center);
     mean += a;
     squares += a * a;
-    sigma += seen.graph.sigma[i];
   }
   const double count = static_cast<double>(face.points.size());
-  const double spread = std::sqrt(std::max(squares / count - mean * mean / (count * count), 0.0));
-  if (spread * std::sqrt(12.0) < kShortestForYaw) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::max(squares / count - mean * mean / (count * count), 0.0));
+}
+
+/// Standard error (rad) of a face's direction in the plane of its normal and `along`. Noise of neighbouring pixels is
+/// not independent: about one point in ten counts.
+double direction_error(const Observation& seen, const Face& face, const Vec3& along) {
+  double sigma = 0;
+  for (const int i : face.points) sigma += seen.graph.sigma[i];
+  const double count = static_cast<double>(face.points.size()), spread = spread_along(seen, face, along);
   return std::hypot(sigma / count / (spread * std::sqrt(count / 10.0)), kSystematic * 0.05 / spread);
+}
+
+/// The level or upright direction that a face's normal leans from, if it clearly leans.
+std::optional<Vec3> leans_from(const Observation& seen, const Face& face, double sigmas) {
+  const Vec3& n = face.plane.normal;
+  const bool flat = std::abs(n.z()) > 0.5;
+  const Vec3 level = flat ? Vec3(0, 0, n.z() < 0.0 ? -1.0 : 1.0) : Vec3(n.x(), n.y(), 0.0).normalized();
+  const double lean = line_angle(level, n);
+  if (lean < kLeastLean || lean < sigmas * direction_error(seen, face, (level - level.dot(n) * n).normalized())) return std::nullopt;
+  return level;
 }
 
 /// Up-aligned axes turned to a largest face that leans, if it clearly does.
 Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes) {
   const Face* largest = largest_face(points, faces);
-  if (!largest) return axes;
-  const Vec3& n = largest->plane.normal;
-  const bool flat = std::abs(n.z()) > 0.5;
-  const Vec3 level = flat ? Vec3(0, 0, n.z() < 0.0 ? -1.0 : 1.0) : Vec3(n.x(), n.y(), 0.0).normalized();
-  const double lean = std::acos(std::clamp(level.dot(n), -1.0, 1.0));
-  if (lean < kLeastLean || lean > kMostLean) return axes;
-  const Vec3 along = (level - level.dot(n) * n).normalized();
-  if (lean < kLeanSigmas * direction_error(seen, *largest, along)) return axes;
-  return Eigen::Quaterniond::FromTwoVectors(level, n).toRotationMatrix() * axes;
+  const auto level = largest ? leans_from(seen, *largest, kLeanSigmas) : std::nullopt;
+  if (!level || line_angle(*level, largest->plane.normal) > kMostLean) return axes;
+  return Eigen::Quaterniond::FromTwoVectors(*level, largest->plane.normal).toRotationMatrix() * axes;
 }
 
 /// Axes of the two largest orthogonal faces, or of the largest and the rectangle around its points.
@@ -162,8 +174,8 @@ Mat3 level_axes(const Observation& seen, std::span<const int> points, std::span<
     const Vec3& n = face->plane.normal;
     if (std::abs(n.z()) > kUprightSine) continue;
     const Vec3 along = Vec3::UnitZ().cross(n).normalized();
+    if (spread_along(seen, *face, along) * std::sqrt(12.0) < kShortestForYaw) continue;
     const double error = direction_error(seen, *face, along);
-    if (std::isinf(error)) continue;
     const double information = 1.0 / (error * error);
     const double angle = 4.0 * std::atan2(n.y(), n.x());
     sum += information * Vec2(std::cos(angle), std::sin(angle));
@@ -185,8 +197,9 @@ Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<co
   if (free_orientation) return free;
   const Mat3 level = level_axes(seen, points, faces);
   const double share = explained_share(points, faces, free);
-  const bool slanted = share > kEnoughExplained && share > explained_share(points, faces, level) + kClearlyMore;
-  return slanted ? free : level;
+  if (share < kEnoughExplained || share < explained_share(points, faces, level) + kClearlyMore) return level;
+  const bool leans = std::any_of(faces.begin(), faces.end(), [&](const Face* face) { return leans_from(seen, *face, kSlantSigmas).has_value(); });
+  return leans ? free : turned(std::atan2(free(1, 0), free(0, 0)));
 }
 
 OrientedBox bound(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,

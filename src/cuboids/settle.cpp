@@ -89,6 +89,9 @@ void settle(const Problem& problem, const std::vector<char>& held, Arrangement& 
     const Structure s = structure_of(exact, now, touching_pairs(exact, now), stays);
     const std::vector<Velocity> velocities = collapse_of(s);
     if (velocities.empty()) {
+      Arrangement closed = now;
+      close_contacts(exact, touching_pairs(exact, now), closed);
+      if (collapse_of(structure_of(exact, closed, touching_pairs(exact, closed), stays)).empty()) now = std::move(closed);
       if (stands(problem, now, held)) arrangement = std::move(now);
       return;
     }

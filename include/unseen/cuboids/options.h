@@ -20,7 +20,7 @@ struct Options {
   double stable_residual = 0.05;   ///< an arrangement with a smaller residual stands
   double push = 0.1;               ///< g: what stands must bear this horizontal acceleration too; 0 = balance alone
   bool image_edges = true;         ///< pull visible box edges to edges of the colour image
-  int arrangements = 1000;         ///< looked at by the search for each part of the scene (fewer for parts of more than 8 boxes)
+  int arrangements = 3000;         ///< looked at by the search for each part of the scene (fewer for parts of more than 8 boxes)
   double time_limit = 10.0;        ///< s, for the search; what is best then is kept
   int seed = 1;
 };
