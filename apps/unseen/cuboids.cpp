@@ -62,7 +62,7 @@ void print_summary(const cuboids::Completion& c, const Arguments& args) {
     if (c.stability.stable)
       fmt::print("stands: bears a sideways push of {:.2f} g, needs a friction of {:.2f} (has {:.4g})\n",
                  c.stability.margin, c.stability.friction_needed, args.options.method.friction);
-    else
+    else if (c.unsupported.size() < c.cuboids.size())
       fmt::print("does not stand: residual {:.2g} (limit {:.2g})\n", c.stability.residual,
                  args.options.method.stable_residual);
     if (!c.unsupported.empty())

@@ -21,6 +21,8 @@ constexpr double kSlantSigmas = 2.0;            // … and so is what only two f
 constexpr double kEnoughExplained = 0.6, kClearlyMore = 0.2;  // shares of the points, for axes that are not level
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
+constexpr double kEndSlack = 0.02, kSlackShare = 0.25;  // m, and of the extent: points that fly beyond a face
+constexpr double kOfSide = 0.15;            // of a side's area: a smaller face is a dent or noise
 constexpr double kSliceQuantile = 0.9;
 constexpr std::size_t kMostRectanglePoints = 1500;
 
@@ -221,12 +223,15 @@ OrientedBox bound(const Observation& seen, std::span<const int> points, std::spa
                                    sign * end_of(seen, points, axes, k, (k + 2) % 3, sign));
       double largest = 0;
       for (const Face* face : faces) largest = std::max(largest, sign * axes.col(k).dot(face->plane.normal) > kFaceCosine ? face->area : 0.0);
-      // The outermost of the large faces that look this way.
+      // The outermost of the large faces that look this way; one that is small for the side only where the points end too.
       double outermost = -std::numeric_limits<double>::infinity();
-      for (const Face* face : faces)
-        if (sign * axes.col(k).dot(face->plane.normal) > kFaceCosine && face->area > 0.3 * largest)
-          outermost = std::max(outermost, sign * axes.col(k).dot(face->center));
-      if (std::isfinite(outermost) && sign * end - outermost < 0.02 + 0.25 * extent[k]) end = sign * outermost;
+      const double side = extent[(k + 1) % 3] * extent[(k + 2) % 3];
+      for (const Face* face : faces) {
+        const double at = sign * axes.col(k).dot(face->center), slack = kEndSlack + (face->area > kOfSide * side ? kSlackShare * extent[k] : 0.0);
+        if (sign * axes.col(k).dot(face->plane.normal) > kFaceCosine && face->area > 0.3 * largest && sign * end - at < slack)
+          outermost = std::max(outermost, at);
+      }
+      if (std::isfinite(outermost)) end = sign * outermost;
       (sign < 0 ? low : high)[k] = end;
     }
     if (high[k] - low[k] < voxel) {  // thin: what is behind the seen side is not known

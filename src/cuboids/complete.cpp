@@ -53,7 +53,7 @@ void describe(const Problem& problem, const std::vector<char>& held, const Arran
   for (const Cuboid& cuboid : result.cuboids)  // a face that was seen may have moved inwards, within noise
     result.extended_volume += std::max(0.0, cuboid.box.volume() - cuboid.initial.volume());
   result.stability.residual = b.residual;
-  result.stability.stable = b.residual < problem.stable_residual;
+  result.stability.stable = b.residual < problem.stable_residual && result.unsupported.size() < result.cuboids.size();
   if (result.stability.stable) {
     result.stability.margin = margin(structure.bodies, structure.contacts, problem.stable_residual);
     result.stability.friction_needed = friction_needed(structure.bodies, structure.contacts, problem.stable_residual);

@@ -132,9 +132,15 @@ bool is_turned(const Vec3& up) {
 FoundUp find_up(const Scan& scan) {
   const std::vector<int> large = largest_faces(scan);
   FoundUp found{usual_up(scan, large)};
-  if (!scan.is_image || found.up.isZero()) return found;
+  if (!scan.is_image) return found;
   const Vec3 usual = found.up;
   const std::vector<Level> planes = coplanar(scan, large);
+  if (usual.isZero()) {  // no plane faces up in a picture that is upright
+    double most = 0;
+    for (const Level& level : planes)
+      if (const double told = evidence(scan, large, level.plane.normal, 1.0); told > most) most = told, found.up = level.plane.normal;
+    return found;
+  }
   const double usual_evidence = evidence(scan, large, usual, carried_share(scan, planes, usual));
   double most = usual_evidence;
   for (const Level& level : large_or_facing(planes, usual)) {

@@ -45,6 +45,19 @@ TEST(Up, IsFoundHoweverTheCameraWasTurned) {
     }
 }
 
+TEST(Up, IsFoundUpsideDownWhereMasksLeaveNothingButTheFloor) {
+  Scene scene = few_boxes();
+  for (const double roll : {130.0, 180.0}) {
+    scene.roll = radians(roll);
+    RgbdFrame frame = render(scene);
+    for (const auto& color : frame.color) frame.masks.push_back(color[0] == 60 ? 0 : 1);  // the ground's shade
+    Context context;
+    const Observation seen = observe(frame, {}, context);
+    EXPECT_LT(degrees(line_angle(seen.T_world_camera.rotation.row(2).transpose(), camera_of(scene).rotation.row(2).transpose())), 1.0) << roll;
+    EXPECT_GT(seen.T_world_camera.translation.z(), 0.5) << roll;
+  }
+}
+
 TEST(Up, OfAnUnusualPictureIsRemarkedOn) {
   Scene scene = few_boxes();
   EXPECT_TRUE(up_of(scene).warnings.empty());

@@ -93,6 +93,31 @@ TEST(Boxes, RecoverSizesAndYaw) {
   }
 }
 
+TEST(Boxes, SeenFromFarAboveKeepTheirSides) {  // noise makes small faces out of their tops' rims
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Scene scene;
+    scene.height = 2.4;
+    scene.pitch = radians(80.0);
+    scene.boxes = {upright(0.1, 0.45, 0, {0.25, 0.2, 0.2}, 30)};
+    const Perceived p = perceive(render(scene, seed));
+    ASSERT_EQ(p.fitted.size(), 1u) << seed;
+    Vec3 sides = 2.0 * p.fitted[0].box.half_size;
+    std::sort(sides.data(), sides.data() + 2);
+    EXPECT_NEAR(sides[0], 0.2, 0.03) << seed;
+    EXPECT_NEAR(sides[1], 0.25, 0.03) << seed;
+  }
+}
+
+TEST(Boxes, FarAwayAreNotTiltedByNoise) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Scene scene;
+    scene.height = 1.9;
+    scene.pitch = radians(30.0);
+    for (int i = 0; i < 5; ++i) scene.boxes.push_back(upright(-0.9 + 0.45 * i, 3.2 + 0.1 * (i % 2), 0, {0.2, 0.15, 0.15}, 13.0 * i + 7.0 * static_cast<double>(seed)));
+    for (const Cuboid& cuboid : perceive(render(scene, seed)).cuboids) EXPECT_GT(cuboid.box.axes(2, 2), std::cos(radians(3.0))) << seed;
+  }
+}
+
 TEST(Boxes, StackedOnesAreSeparated) {
   Scene scene;
   scene.boxes = {upright(0.0, 0.75, 0, {0.26, 0.2, 0.06}, 5), upright(0.01, 0.76, 0.06, {0.15, 0.12, 0.07}, 40)};
