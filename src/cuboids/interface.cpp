@@ -208,6 +208,7 @@ std::optional<Interface> interface_of(const ConvexSolid& a, const ConvexSolid& b
 
 std::optional<Interface> interface_of(const Support& a, const ConvexSolid& b, double tolerance) {
   if (a.plane.signed_distance(b.center) > b.radius + tolerance) return std::nullopt;
+  if (!a.outline.empty() && -lowest(b, -a.plane.normal) < a.plane.offset) return std::nullopt;  // below a desk
   return rest(seat_of(a.plane, a.outline, tolerance), b, tolerance);
 }
 

@@ -48,7 +48,8 @@ struct Interface {
 /// only at the corner of a grid carry nothing. Parallel edges whose faces do not face each other, as in a card house,
 /// touch along an edge: no face is preferred, the normal lies half-way. Points lie half-way between the two surfaces.
 std::optional<Interface> interface_of(const ConvexSolid& a, const ConvexSolid& b, double tolerance);
-/// The same with a support: its half space behind the plane, within the outline (widened by `tolerance`) if it has one.
+/// The same with a support: its half space behind the plane; or, if it has an outline, what is behind that (widened by `tolerance`), but
+/// bodies behind it altogether do not meet it.
 std::optional<Interface> interface_of(const Support& a, const ConvexSolid& b, double tolerance);
 
 }  // namespace unseen::cuboids

@@ -125,18 +125,23 @@ std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
   return support;
 }
 
-/// Flat regions that may be supports: what no mask names, unless that is next to nothing.
-Faces faces_of_supports(const RgbdFrame& frame, const Measured& measured, const PointGraph& graph) {
+/// Flat regions that may be supports.
+struct SupportFaces {
+  Faces faces;
+  bool unnamed = false;  ///< they are what no mask names; false also if that is next to nothing
+};
+
+SupportFaces faces_of_supports(const RgbdFrame& frame, const Measured& measured, const PointGraph& graph) {
   std::vector<int> group(measured.points.size(), 0);
   const auto grown = [&] { return grow_faces(measured.points, graph, group, Vec3::Zero(), kFewestSupportPoints, kFirstWidth); };
   if (!frame.masks.empty() && !frame.is_fused()) {
     for (std::size_t i = 0; i < group.size(); ++i) group[i] = frame.masks[measured.pixel_of_point[i]] > 0 ? -1 : 0;
     Faces faces = grown();
     const auto in_faces = std::count_if(faces.face_of_point.begin(), faces.face_of_point.end(), [](int f) { return f >= 0; });
-    if (static_cast<double>(in_faces) > kLeastUnmasked * static_cast<double>(group.size())) return faces;
+    if (static_cast<double>(in_faces) > kLeastUnmasked * static_cast<double>(group.size())) return {std::move(faces), true};
     std::fill(group.begin(), group.end(), 0);
   }
-  return grown();
+  return {grown(), false};
 }
 
 /// A word where up is not what most pictures have, or may be wrong.
@@ -157,8 +162,8 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
   Observation seen;
   seen.graph = link_points(frame, measured, options.noise, options.gap, context);
   context.check();
-  const Faces faces = faces_of_supports(frame, measured, seen.graph);
-  const Scan scan{measured.points, seen.graph, faces, !frame.is_fused()};
+  const SupportFaces flat = faces_of_supports(frame, measured, seen.graph);
+  const Scan scan{measured.points, seen.graph, flat.faces, !frame.is_fused()};
   context.check();
 
   FoundSupports found;
@@ -169,7 +174,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
     const FoundUp told = frame.up ? FoundUp{frame.up->normalized()} : find_up(scan);
     const Vec3& up = told.up;
     if (!up.allFinite() || up.norm() < 0.5) throw InputError(frame.name, "depth", "no plane", "a surface to stand on");
-    found = find_supports(scan, up);
+    found = find_supports(scan, up, flat.unnamed);
     if (frame.up && found.upside_down)
       throw InputError(frame.name, "up", "a direction that only undersides face", "the direction against gravity");
     if (found.supports.empty())

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kSmallestGroundShare = 0.2;  // of the largest horizontal area, or of its pixels
 constexpr double kCarryShare = 1.0 / 3.0;     // of what the surface that carries most carries
+constexpr double kDeskShare = 0.1;            // … of a desk that no mask names
 constexpr double kCarryHeight = 0.5;          // m
 constexpr double kWallShare = 0.25;           // of the square of the scene's radius
 constexpr double kMostBehindWall = 0.03;      // of the points
@@ -164,7 +165,7 @@ bool inside_outline(std::span<const Vec2> outline, const Vec2& p, double margin)
   return !outline.empty();
 }
 
-FoundSupports find_supports(const Scan& scan, const Vec3& up) {
+FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   FoundSupports found;
   found.up = up;
   std::vector<int> upward, downward, upright;
@@ -205,6 +206,10 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up) {
   });
   const bool ends = static_cast<double>(below) > kBelowShare * static_cast<double>(scan.points.size());
   add_support(found, scan, *ground, SupportKind::ground, ends ? lifted(*ground, u, v) : std::vector<Vec3>{});
+
+  for (const Level& level : levels)
+    if (unnamed && &level > &*ground && level.carried >= kDeskShare * most && level.plane.normal.dot(found.up) > kHorizontal)
+      add_support(found, scan, level, SupportKind::desk, lifted(level, u, v));
 
   const double smallest_wall = kWallShare * std::pow(scene_radius(scan), 2);
   for (Level& wall : coplanar(scan, upright)) {

@@ -36,8 +36,8 @@ FoundUp find_up(const Scan& scan);
 /// Whether a camera with this up was turned about its axis by more than people turn one to take a picture upright.
 bool is_turned(const Vec3& up);
 
-/// Ground: the lowest large horizontal surface that carries things. Then walls that
-/// bound what was seen, ceilings. Empty supports if there is no ground.
-FoundSupports find_supports(const Scan& scan, const Vec3& up);
+/// Ground: the lowest large horizontal surface that carries things. Then, if masks name all things (`unnamed`: the faces are what no
+/// mask names), desks: others that carry some; walls that bound what was seen, ceilings. Empty supports if there is no ground.
+FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed);
 
 }  // namespace unseen::cuboids
