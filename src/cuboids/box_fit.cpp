@@ -21,7 +21,7 @@ constexpr double kSlantSigmas = 2.0;            // … and so is what only two f
 constexpr double kEnoughExplained = 0.6, kClearlyMore = 0.2;  // shares of the points, for axes that are not level
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
-constexpr double kEndSlack = 0.02, kSlackShare = 0.25;  // m, and of the extent: points that fly beyond a face
+constexpr double kEndSlack = 0.02, kEndSigmas = 1.0, kSlackShare = 0.25;  // m, and of the extent: points that fly beyond a face
 constexpr double kOfSide = 0.15;            // of a side's area: a smaller face is a dent or noise
 constexpr double kSliceQuantile = 0.9;
 constexpr std::size_t kMostRectanglePoints = 1500;
@@ -216,6 +216,8 @@ OrientedBox bound(const Observation& seen, std::span<const int> points, std::spa
     extent[k] = greatest - smallest;
   }
   const Vec3 viewpoint = axes.transpose() * seen.T_world_camera.translation;
+  double near = kEndSlack;
+  for (const int i : points) near += kEndSigmas * seen.graph.sigma[i] / static_cast<double>(points.size());
   for (int k = 0; k < 3; ++k) {
     for (const double sign : {-1.0, 1.0}) {
       // A side seen edge on ends the slices along one of the other axes, not along both.
@@ -227,7 +229,7 @@ OrientedBox bound(const Observation& seen, std::span<const int> points, std::spa
       double outermost = -std::numeric_limits<double>::infinity();
       const double side = extent[(k + 1) % 3] * extent[(k + 2) % 3];
       for (const Face* face : faces) {
-        const double at = sign * axes.col(k).dot(face->center), slack = kEndSlack + (face->area > kOfSide * side ? kSlackShare * extent[k] : 0.0);
+        const double at = sign * axes.col(k).dot(face->center), slack = near + (face->area > kOfSide * side ? kSlackShare * extent[k] : 0.0);
         if (sign * axes.col(k).dot(face->plane.normal) > kFaceCosine && face->area > 0.3 * largest && sign * end - at < slack)
           outermost = std::max(outermost, at);
       }
