@@ -13,7 +13,7 @@ namespace {
 constexpr double kGoodResidual = 1e-6;
 constexpr int kSteps = 12, kRounds = 8;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-constexpr int kTrials = 200;     // arrangements that growing faces may be tried with
+constexpr int kMostGrowth = 1200;  // arrangements that growing faces may be tried with, times bodies
 constexpr double kBetter = 0.9;  // of the energy: a step that leaves more is not worth its volume
 constexpr double kHidden = 2.0;  // tolerances: a face with less room is one that was seen
 constexpr double kProbe = 1e-4;  // m, of the derivative
@@ -98,7 +98,7 @@ std::vector<Extension> gradient(const Problem& problem, const std::vector<char>&
 /// that does.
 State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const Admissible& admissible, const std::vector<char>& held, State now,
                         Context& context) {
-  int trials = 0;
+  int work = 0;
   for (int round = 0; round < kRounds && now.residual > kGoodResidual; ++round) {
     std::vector<char> is_near(now.structure.bodies.size(), 0);
     const auto moves = [&](int group) { return !now.structure.bodies[group].is_static && now.motion(group) > kGoodResidual; };
@@ -116,7 +116,7 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const Admiss
           Arrangement next = with_face(problem, now.arrangement, static_cast<int>(i), face, step);
           close_contacts(problem, touching_pairs(problem, next), next);
           if (penetrates(problem, next) || !admissible(next)) break;
-          if (++trials > kTrials) return best ? *best : now;
+          if ((work += problem.bodies()) > kMostGrowth) return best ? *best : now;
           auto there = state_of(problem, held, std::move(next), least);
           if (!there) continue;
           least = there->energy < kGoodResidual * kGoodResidual ? 0.0 : kBetter * there->energy;

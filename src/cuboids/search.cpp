@@ -83,7 +83,8 @@ std::vector<int> solve_part(Search& s, const std::vector<int>& part, std::vector
   s.inside.assign(s.problem.bodies(), 0);
   for (const int body : part) s.inside[body] = 1;
   // Each costs the more the larger the part is.
-  s.most_visits = std::max(1, s.limits.arrangements * kUsualPart / std::max(kUsualPart, static_cast<int>(part.size())));
+  const double larger = std::max(1.0, static_cast<double>(part.size()) / kUsualPart);
+  s.most_visits = std::max(1, static_cast<int>(s.limits.arrangements / (larger * larger)));
   std::vector<char> closed(s.problem.hypotheses.size(), 0);
   for (std::size_t h = 0; h < closed.size(); ++h)
     closed[h] = !s.inside[s.problem.hypotheses[h].a] && !s.inside[s.problem.hypotheses[h].b];
