@@ -105,8 +105,9 @@ RigidTransform world_of(const Vec3& up, const Plane& ground, bool is_image) {
   return T;
 }
 
-/// The faces of a support belong to it, and single points that lie on it; the feet of what stands on it do not.
-std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
+/// The faces of a support belong to it, and single points that lie on it; the feet of what stands on it do not, nor flat things that
+/// a mask names.
+std::vector<int> assign(const FoundSupports& found, const Scan& scan, const std::vector<char>& is_named) {
   std::vector<int> support(scan.points.size(), -1);
   for (std::size_t s = 0; s < found.supports.size(); ++s)
     for (const int i : found.points[s]) support[i] = static_cast<int>(s);
@@ -117,7 +118,7 @@ std::vector<int> assign(const FoundSupports& found, const Scan& scan) {
       const double slant = std::abs(plane.normal.dot(p)) / (scan.is_image ? p.z() : p.norm());
       const double reach = kSupportSigmas * scan.graph.sigma[i] * std::clamp(slant, 0.3, 1.0);
       const double distance = std::abs(plane.signed_distance(p)), turned = plane.normal.dot(scan.graph.normals[i]);
-      const bool on = distance < 0.5 * reach || (distance < 1.5 * reach && turned > kFlatCosine);
+      const bool on = distance < 0.5 * reach || (!is_named[i] && distance < 1.5 * reach && turned > kFlatCosine);
       if (support[i] < 0 && on) support[i] = static_cast<int>(s);
       if (support[i] == static_cast<int>(s) && distance > 5.0 * reach + 0.003) support[i] = -1;
     }
@@ -142,6 +143,17 @@ SupportFaces faces_of_supports(const RgbdFrame& frame, const Measured& measured,
     std::fill(group.begin(), group.end(), 0);
   }
   return {grown(), false};
+}
+
+/// Whether a pixel is in a mask, and not at its rim: that may lie a little off.
+bool is_well_named(const RgbdFrame& frame, int pixel) {
+  constexpr int kRim = 3;  // pixels
+  const int u = pixel % frame.camera.width, v = pixel / frame.camera.width;
+  for (const auto& [du, dv] : {std::pair{0, 0}, {-kRim, 0}, {kRim, 0}, {0, -kRim}, {0, kRim}}) {
+    const int x = std::clamp(u + du, 0, frame.camera.width - 1), y = std::clamp(v + dv, 0, frame.camera.height - 1);
+    if (frame.masks[static_cast<std::size_t>(y) * frame.camera.width + x] == 0) return false;
+  }
+  return true;
 }
 
 /// A word where up is not what most pictures have, or may be wrong.
@@ -183,7 +195,10 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
     if (!frame.up && scan.is_image) remark_on_up(told, found.up, context);
   }
   seen.T_world_camera = world_of(found.up, found.supports.front().plane, scan.is_image);
-  seen.support_of_point = assign(found, scan);
+  std::vector<char> is_named(scan.points.size(), 0);
+  if (flat.unnamed)
+    for (std::size_t i = 0; i < is_named.size(); ++i) is_named[i] = is_well_named(frame, measured.pixel_of_point[i]);
+  seen.support_of_point = assign(found, scan, is_named);
   const RigidTransform& T = seen.T_world_camera;
   seen.supports = found.supports;
   for (Support& support : seen.supports) {

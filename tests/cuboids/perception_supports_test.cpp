@@ -130,6 +130,17 @@ TEST(Walls, AreNotPiercedByWhatStandsAgainstThem) {
   }
 }
 
+TEST(Walls, LeaveAThinPanelThatAMaskNames) {
+  Scene scene = before_a_wall(2.5);
+  scene.boxes[0] = upright(0.1, 2.5 - 0.015, 0, {1.0, 0.03, 0.8}, 0);
+  RgbdFrame frame = render(scene);
+  for (const auto& color : frame.color) frame.masks.push_back(color[2] == 120 ? 1 : 0);  // the first box
+  const Perceived p = perceive(frame);
+  ASSERT_EQ(p.seen.supports.size(), 2u);
+  ASSERT_EQ(p.fitted.size(), 1u);
+  EXPECT_NEAR(2.0 * p.fitted[0].box.half_size.z(), 0.8, 0.04);
+}
+
 TEST(Walls, OfACornerAreBothFound) {
   Scene scene = before_a_wall(4.0);
   scene.boxes.push_back(upright(1.75, 2.0, 0, {0.1, 8.0, 4.0}, 0));
