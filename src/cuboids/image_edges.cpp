@@ -25,7 +25,6 @@ constexpr double kInside = 1.5, kOutside = 8.0;  // σ of a side that was seen t
 constexpr double kSeenSide = 1.5;                // mm, σ of a side that was seen as a face
 constexpr double kStanding = 1e-5;               // m, σ of a bottom that stands on the ground
 constexpr double kTurn = 0.02;                   // rad, σ of the turn
-constexpr double kLeastShare = 0.5;             // of a size: one that shrinks to less went to a wrong edge
 constexpr double kSlack = 0.0005;                // m that the points may be farther from the box on average
 
 /// What is sought of a box: how far each side moves outward (m; −x, +x, −y, +y, −z, +z) and its turn about its third axis.
@@ -224,7 +223,7 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
       depth.outside[4] = kInside * scale;
       if (stands_on(seen.supports.front(), cuboid.box)) depth.inside[4] = depth.outside[4] = kStanding;
       const OrientedBox aligned = changed(cuboid.box, align(problem, cuboid.box, samples[k], depth));
-      if ((aligned.half_size.array() < kLeastShare * cuboid.box.half_size.array()).any()) continue;
+      if (aligned.half_size.minCoeff() <= 0.0) continue;
       if (misfit(aligned, points[k]) <= misfit(cuboid.box, points[k]) + kSlack) cuboid.box = cuboid.initial = aligned;
     }
   };
