@@ -74,7 +74,7 @@ double time_of_small_moves(const Problem& problem, const Arrangement& arrangemen
 Problem as_written(const Problem& problem) {
   Problem exact = problem;
   for (double& tolerance : exact.tolerance) tolerance *= kExactly;
-  exact.supports.front().outline.clear();  // it goes on where it was not seen
+  if (!exact.supports.empty()) exact.supports.front().outline.clear();  // the ground goes on where it was not seen
   return exact;
 }
 
