@@ -140,7 +140,10 @@ Completion complete_cuboids(const RgbdFrame& frame, const Completion& scene, con
   start.T_world_camera = scene.T_world_camera;
   start.supports = scene.supports;
   start.cuboids = scene.cuboids;
-  return run_cuboids(context, std::move(start), [&](Completion& result) { complete_boxes(frame, options, context, result); });
+  return run_cuboids(context, std::move(start), [&](Completion& result) {
+    realign(frame, options, result, context);
+    complete_boxes(frame, options, context, result);
+  });
 }
 
 }  // namespace unseen::cuboids

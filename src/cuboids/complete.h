@@ -20,6 +20,10 @@ namespace unseen::cuboids {
 /// between them. `tolerance` (m, a cuboid) shrinks along. Returns how many were joined to others.
 std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);
 
+/// Given boxes that are turned by up to some 15° and whose sides are up to 5 % wrong are fitted again to the points that lie nearest to them
+/// and look their way; sides that nothing was seen of stay as given.
+void realign(const RgbdFrame& frame, const Options& options, Completion& scene, Context& context);
+
 /// Adds the legs of a plate that are wholly hidden where others of its legs are seen, by mirroring them at the plate's
 /// middle (thesis Section 4.4.1). Returns how many.
 std::size_t add_hidden_legs(const DepthView& view, std::vector<Cuboid>& cuboids, std::vector<double>& tolerance);

@@ -21,7 +21,8 @@ namespace unseen::cuboids {
 Completion complete_cuboids(const RgbdFrame& frame, const Options& options, Context& context);
 
 /// The same for boxes and supports that are known: `scene` gives T_world_camera, supports and cuboids with their
-/// `initial` boxes; the frame only says which space is free.
+/// `initial` boxes. These may be turned by some 15° and sized a little wrong: each is fitted again to the points near it; sides of which
+/// nothing was seen stay as given.
 Completion complete_cuboids(const RgbdFrame& frame, const Completion& scene, const Options& options, Context& context);
 
 }  // namespace unseen::cuboids
