@@ -60,14 +60,17 @@ void print_summary(const cuboids::Completion& c, const Arguments& args) {
     fmt::print("{}, {} fixed{}\n", plural(c.contacts.size(), "contact", "contacts"), c.fixed_contacts,
                c.search.optimal ? " (proven to be the fewest)" : "");
     if (c.stability.stable)
-      fmt::print("stands: bears a sideways push of {:.2f} g, needs a friction of {:.2f} (has {:.4g})\n",
-                 c.stability.margin, c.stability.friction_needed, args.options.method.friction);
-    else if (c.unsupported.size() < c.cuboids.size())
+      fmt::print("{}: bears a sideways push of {:.2f} g, needs a friction of {:.2f} (has {:.4g})\n",
+                 c.unsupported.empty() ? "stands" : "what is supported stands", c.stability.margin, c.stability.friction_needed, args.options.method.friction);
+    else if (c.unsupported.size() + c.held_outside.size() < c.cuboids.size())
       fmt::print("does not stand: residual {:.2g} (limit {:.2g})\n", c.stability.residual,
                  args.options.method.stable_residual);
     if (!c.unsupported.empty())
       fmt::print("nothing can support {}: {}\n", plural(c.unsupported.size(), "box", "boxes"),
                  fmt::join(c.unsupported, ", "));
+    if (!c.held_outside.empty())
+      fmt::print("only something outside the picture, which cuts them off, can hold {}: {}\n", plural(c.held_outside.size(), "box", "boxes"),
+                 fmt::join(c.held_outside, ", "));
   }
   fmt::print("{}: {}\n", args.no_report ? "result" : "report",
              (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());

@@ -126,7 +126,7 @@ void add_residuals(const SolvedImpact& impact, Reconstruction& result) {
   for (std::size_t i = 0; i < problem.points.size(); ++i) {
     const PointObservation& seen = problem.points[i];
     result.residuals.push_back({seen.frame, seen.body, seen.pixel, problem.camera.project(position_at<double>(problem, s, seen.body, seen.after, seen.time)),
-                                !impact.check.held_out[i]});
+                                !impact.check.held_out[i] && !impact.check.outlier[i]});
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -16,6 +17,8 @@ constexpr double kMostChi2 = 3.0;
 constexpr double kMostEnergy = 1.005;  // of that before: bounds are soft, so a little more than 1 is none
 constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
 constexpr double kMostStrain = 3.0;   // noise that contact and orientations may be off by in the mean
+constexpr double kFar = 5.0, kMedianOfNorm = 1.1774;  // noise; of normal noise in two dimensions
+constexpr double kMostOutliers = 0.2;  // of the sightings
 constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
 constexpr double kTrendSize = 2.0;    // in noise: smaller trends do no harm
 
@@ -27,16 +30,29 @@ std::vector<Vec2> residuals(const Problem& problem, const State& state) {
   return all;
 }
 
-double rms(const std::vector<Vec2>& off, const std::vector<char>& chosen, bool which) {
+/// Sightings that a tracker or a person got wrong: few, and far beyond what the others are off by.
+std::vector<char> outliers(const std::vector<Vec2>& off, double noise) {
+  std::vector<double> sizes;
+  for (const Vec2& o : off) sizes.push_back(o.norm());
+  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
+  const double far = kFar * std::max(noise, sizes[sizes.size() / 2] / kMedianOfNorm);
+  std::vector<char> out;
+  for (const Vec2& o : off) out.push_back(o.norm() > far);
+  if (static_cast<double>(std::count(out.begin(), out.end(), 1)) > kMostOutliers * static_cast<double>(off.size())) out.assign(off.size(), 0);
+  return out;
+}
+
+/// Root mean square over the held-out points, or over the others, without outliers.
+double rms(const std::vector<Vec2>& off, const ModelCheck& check, bool held_out) {
   double sum = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < off.size(); ++i)
-    if ((chosen[i] != 0) == which) sum += off[i].squaredNorm(), ++count;
+    if ((check.held_out[i] != 0) == held_out && !check.outlier[i]) sum += off[i].squaredNorm(), ++count;
   return count ? std::sqrt(sum / static_cast<double>(count)) : 0.0;
 }
 
 /// Flights whose residuals go on alike from frame to frame, and are larger than the noise.
-std::vector<std::string> trends(const Problem& problem, const std::vector<Vec2>& off, double noise) {
+std::vector<std::string> trends(const Problem& problem, const std::vector<Vec2>& off, const std::vector<char>& outlier, double noise) {
   struct Sums {
     double square = 0, lag = 0;
     int count = 0;
@@ -44,6 +60,7 @@ std::vector<std::string> trends(const Problem& problem, const std::vector<Vec2>&
   };
   std::map<std::pair<int, bool>, Sums> flights;
   for (std::size_t i = 0; i < off.size(); ++i) {
+    if (outlier[i]) continue;
     Sums& sums = flights[{problem.points[i].body, problem.points[i].after}];
     if (sums.count > 0) sums.lag += off[i].dot(sums.last);
     sums.square += off[i].squaredNorm();
@@ -67,6 +84,7 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
   ModelCheck check;
   const Problem& problem = solution.problem;
   check.held_out.assign(problem.points.size(), 0);
+  check.outlier.assign(problem.points.size(), 0);
   double size = 0.0;
   for (const PointObservation& p : problem.points)
     if (p.depth > 0.0) size = std::max(size, problem.camera.fx * problem.solids[p.body].mass.extent / p.depth);
@@ -83,12 +101,13 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
     if (fit.usable) state = fit.state;
   }
   const std::vector<Vec2> off = residuals(problem, state);
-  check.used_rms = rms(residuals(problem, solution.fit.state), check.held_out, false);
-  check.held_out_rms = rms(off, check.held_out, true);
+  if (!problem.filmed && !off.empty()) check.outlier = outliers(off, noise);
+  check.used_rms = rms(residuals(problem, solution.fit.state), check, false);
+  check.held_out_rms = rms(off, check, true);
   check.held_out_chi2 = check.held_out_rms * check.held_out_rms / (2.0 * noise * noise);
   if (check.held_out_chi2 > kMostChi2)
     check.reasons.push_back(fmt::format("frames that were held out are {:.1f} px off, where the tracks' own noise is {:.1f} px", check.held_out_rms, noise));
-  for (std::string& trend : trends(problem, off, noise)) check.reasons.push_back(std::move(trend));
+  for (std::string& trend : trends(problem, off, check.outlier, noise)) check.reasons.push_back(std::move(trend));
   const StateT<double> s = values_of(problem, solution.fit.state);
   const double kept = kinetic_energy<double>(problem, s, true) / kinetic_energy<double>(problem, s, false);
   const auto strain = [&](const char* term) {

@@ -16,6 +16,7 @@ struct ModelCheck {
   double held_out_rms = 0;    ///< px
   double used_rms = 0;        ///< px
   std::vector<char> held_out;  ///< by point of the problem
+  std::vector<char> outlier;   ///< by point: far from where the flights lead, as few are
   std::vector<std::string> reasons;  ///< why it does not fit, in words
 };
 

@@ -84,6 +84,8 @@ struct Problem {
   bool has_pose(int body) const { return solids[body].is_sphere() || (solids[body].known_shape && turns(body)); }
   /// Of the fixed body, towards the first; nothing if not known.
   std::optional<Vec3> normal_of_fixed(const Vec3& down) const { return level ? std::optional(Vec3(-down)) : fixed_normal; }
+  /// Whether the impact is one of the centres: nothing tells how the bodies turn, nor where they touch.
+  bool is_of_centres() const { return !turns(0) && !turns(1) && !(has_pose(0) && (fixed ? level || fixed_normal : has_pose(1))); }
   /// Whether two shapes meet that are both known.
   bool touches() const { return !fixed && has_pose(0) && has_pose(1); }
 };

@@ -20,7 +20,7 @@ namespace {
 constexpr double kMostRatio = 50.0;  // of masses: beyond, the heavier body might as well be fixed
 
 /// The unknowns that nothing in the shot tells of, or that are given.
-std::vector<int> held_unknowns(const Problem& problem, bool touch) {
+std::vector<int> held_unknowns(const Problem& problem) {
   std::vector<int> held;
   const auto hold = [&](int from, int count) {
     for (int i = 0; i < count; ++i) held.push_back(from + i);
@@ -34,7 +34,7 @@ std::vector<int> held_unknowns(const Problem& problem, bool touch) {
     if (!problem.terms.soft || still) hold(kVAfter + 3 * o, 3);
     if (!problem.terms.soft || still || !problem.turns(o)) hold(kHAfter + 3 * o, 3);
   }
-  if (!touch && !problem.turns(0) && !problem.turns(1)) hold(kX, 3);
+  if (problem.is_of_centres()) hold(kX, 3);
   std::sort(held.begin(), held.end());
   return held;
 }
@@ -84,7 +84,7 @@ std::pair<double, double> impact_times(const Problem& problem) {
 struct Setup {
   Setup(const Problem& problem, const State& reference, const std::optional<Proximity>& touch)
       : evaluation(problem, reference), ceres(options()), blocks(add_residuals(touch, evaluation, ceres)) {
-    ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem, touch.has_value())));
+    ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem)));
     const auto [earliest, latest] = impact_times(problem);
     ceres.SetParameterLowerBound(unknowns(), kTime, std::min(0.0, earliest - reference.time));
     ceres.SetParameterUpperBound(unknowns(), kTime, std::max(0.0, latest - reference.time));

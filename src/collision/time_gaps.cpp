@@ -12,6 +12,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr int kSide = 4;             // points on either side that are looked at, at most
+constexpr int kSideOfSingle = 6;     // the same, of a gap that no others repeat
 constexpr int kFewestOfGap = 6;           // points in all; with a gravity one less, and two on one side will do
 constexpr int kMostMissing = 2;      // frames
 constexpr double kFits = 4.0;        // χ² a degree of freedom, of a fit that counts
@@ -19,6 +20,7 @@ constexpr double kStepModel = 0.02;      // of a step: what a parabola leaves of
 constexpr double kBetter = 6.0;      // times smaller must the sum of squares get, and
 constexpr double kClearly = 30.0;    // σ²
 constexpr double kAlmost = 8.0;      // σ²: no worse than without the gap
+constexpr double kSameSize = 0.05, kSizeError = 0.5;  // of a diameter, and px
 constexpr std::size_t kFewestPeriodic = 3;
 constexpr int kShortestPeriod = 3;   // frames
 
@@ -61,9 +63,15 @@ void for_each_place(const std::vector<Candidate>& track, int at, double noise, c
     }
 }
 
+/// Whether two outlines may be one body's, a few frames apart. What takes in a shadow, or loses a part, jumps too.
+bool are_alike(const Candidate& a, const Candidate& b) {
+  return a.diameter <= 0.0 || b.diameter <= 0.0 || std::abs(a.diameter - b.diameter) < kSameSize * std::max(a.diameter, b.diameter) + kSizeError;
+}
+
 /// Missing frames before `at`, or 0.
 int missing_before(const std::vector<Candidate>& track, int at, double noise, const std::optional<ImageGravity>& gravity) {
   int found = 0;
+  if (!are_alike(track[at - 1], track[at])) return found;
   for_each_place(track, at, noise, gravity, [&](const Place& place) {
     const double plain = place.squares(0);
     if (plain < place.limit()) return true;  // nothing is missing
@@ -75,6 +83,12 @@ int missing_before(const std::vector<Candidate>& track, int at, double noise, co
     return false;
   });
   return found;
+}
+
+/// Whether a gap that is alone has as many points on both sides as tell it from an outline that loses its underside to a shadow near the floor.
+bool is_clear(const std::vector<Candidate>& track, int at, int missing, double noise, const std::optional<ImageGravity>& gravity) {
+  const Place place(track, at, kSideOfSingle, kSideOfSingle, noise, gravity);
+  return place.usable() && place.squares(missing) < place.limit() && place.squares(0) > kBetter * place.squares(missing) + kClearly;
 }
 
 /// True if no place of a period speaks against a missing frame there.
@@ -126,6 +140,11 @@ TimeGaps find_time_gaps(const std::vector<Candidate>& track, double noise, const
     if (const int missing = missing_before(track, at, noise, gravity)) found.gaps.push_back({track[at - 1].frame, missing});
   }
   found.period = period_of(found.gaps, track, noise, gravity);
+  if (!found.period)
+    std::erase_if(found.gaps, [&](const TimeGaps::Gap& gap) {
+      const auto at = std::find_if(track.begin(), track.end(), [&](const Candidate& c) { return c.frame > gap.after; }) - track.begin();
+      return !is_clear(track, static_cast<int>(at), gap.missing, noise, gravity);
+    });
   return found;
 }
 

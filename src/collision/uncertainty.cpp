@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "collision/level_floor.h"
+#include "collision/normal_doubts.h"
 #include "collision/unknowns.h"
 #include "unseen/core/random.h"
 
@@ -109,6 +109,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   const Problem& problem = solution.problem;
   add_covariance(problem, solution.fit);
   doubt_level(solution);
+  doubt_normal(solution);
   Uncertain result{restitution_of(problem, solution.fit), mass_ratio_of(problem, solution.fit), error_by_vertical(problem, solution.fit)};
   const double by_covariance = result.restitution.sd;
   result.restitution.value = std::clamp(result.restitution.value, 0.0, 1.0);

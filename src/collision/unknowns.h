@@ -51,6 +51,7 @@ StateT<T> unpack(const Problem& problem, const State& reference, const T* u) {
   s.inverse_mass = problem.fixed ? T(0.0) : T(1.0) / s.mass_ratio;
   s.x = reference.x.cast<T>() + vec(kX);
   s.impulse = reference.impulse.cast<T>() + vec(kImpulse);
+  const bool of_centres = problem.is_of_centres();
   for (int o = 0; o < 2; ++o) {
     s.p[o] = reference.p[o].cast<T>() + vec(kP + 3 * o);
     s.v[o] = reference.v[o].cast<T>() + vec(kV + 3 * o);
@@ -63,7 +64,8 @@ StateT<T> unpack(const Problem& problem, const State& reference, const T* u) {
     } else {
       const T share = o == 0 ? T(1.0) : -s.inverse_mass;
       s.v_after[o] = s.v[o] + s.impulse * share;
-      s.h_after[o] = s.h[o] + (s.x - s.p[o]).cross(s.impulse) * share;
+      s.h_after[o] = s.h[o];
+      if (!of_centres) s.h_after[o] += (s.x - s.p[o]).cross(s.impulse) * share;
     }
   }
   return s;
@@ -72,12 +74,14 @@ StateT<T> unpack(const Problem& problem, const State& reference, const T* u) {
 /// The state at the unknowns' values.
 State state_at(const Problem& problem, const State& reference, const double* u);
 
-/// Velocity of the body's point at the contact, before or after the impact.
+/// Velocity of the body's point at the contact, before or after the impact; of its centre, if the impact is one of centres.
 template <class T>
 Vec3T<T> contact_velocity(const Problem& problem, const StateT<T>& s, int o, bool after) {
   if (o == 1 && problem.fixed) return Vec3T<T>(T(0.0), T(0.0), T(0.0));
+  const Vec3T<T>& v = after ? s.v_after[o] : s.v[o];
+  if (problem.is_of_centres()) return v;
   const Vec3T<T> omega = angular_velocity<T>(s.q[o], after ? s.h_after[o] : s.h[o], problem.solids[o].mass.inertia);
-  return (after ? s.v_after[o] : s.v[o]) + omega.cross(s.x - s.p[o]);
+  return v + omega.cross(s.x - s.p[o]);
 }
 
 /// The contact's normal, from b to a: that of the shapes, or the impulse's direction.

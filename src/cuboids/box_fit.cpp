@@ -16,8 +16,9 @@ const double kAlignedCosine = std::cos(radians(8.0));
 const double kLeastLean = radians(2.0), kMostLean = radians(15.0);
 const double kFaceCosine = std::cos(radians(20.0));
 constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
-constexpr double kLeanSigmas = 4.0;             // standard errors: a largest face that leans by less is level …
-constexpr double kSlantSigmas = 2.0;            // … and so is what only two faces together say is slanted
+constexpr double kLeanSigmas = 4.0;         // standard errors: a largest face that leans by less is level …
+constexpr double kSlantSigmas = 2.0;        // … and so is what only two faces together say is slanted …
+const double kVagueLean = radians(4.0);     // … and a face whose direction noise leaves as open: slivers between edges
 constexpr double kEnoughExplained = 0.6, kClearlyMore = 0.2;  // shares of the points, for axes that are not level
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
@@ -110,13 +111,18 @@ double spread_along(const Observation& seen, const Face& face, const Vec3& along
   return std::sqrt(std::max(squares / count - mean * mean / (count * count), 0.0));
 }
 
-/// Standard error (rad) of a face's direction in the plane of its normal and `along`. Noise of neighbouring pixels is
-/// not independent: about one point in ten counts.
-double direction_error(const Observation& seen, const Face& face, const Vec3& along) {
+/// Standard errors (rad) of a face's direction in the plane of its normal and `along`.
+struct DirectionError {
+  double noise = 0, systematic = 0;
+  double all() const { return std::hypot(noise, systematic); }
+};
+
+/// Noise of neighbouring pixels is not independent: about one point in ten counts.
+DirectionError direction_error(const Observation& seen, const Face& face, const Vec3& along) {
   double sigma = 0;
   for (const int i : face.points) sigma += seen.graph.sigma[i];
   const double count = static_cast<double>(face.points.size()), spread = spread_along(seen, face, along);
-  return std::hypot(sigma / count / (spread * std::sqrt(count / 10.0)), kSystematic * 0.05 / spread);
+  return {sigma / count / (spread * std::sqrt(count / 10.0)), kSystematic * 0.05 / spread};
 }
 
 /// The level or upright direction that a face's normal leans from, if it clearly leans.
@@ -125,7 +131,8 @@ std::optional<Vec3> leans_from(const Observation& seen, const Face& face, double
   const bool flat = std::abs(n.z()) > 0.5;
   const Vec3 level = flat ? Vec3(0, 0, n.z() < 0.0 ? -1.0 : 1.0) : Vec3(n.x(), n.y(), 0.0).normalized();
   const double lean = line_angle(level, n);
-  if (lean < kLeastLean || lean < sigmas * direction_error(seen, face, (level - level.dot(n) * n).normalized())) return std::nullopt;
+  const DirectionError error = direction_error(seen, face, (level - level.dot(n) * n).normalized());
+  if (lean < kLeastLean || lean < sigmas * error.all() || error.noise > kVagueLean) return std::nullopt;
   return level;
 }
 
@@ -177,7 +184,7 @@ Mat3 level_axes(const Observation& seen, std::span<const int> points, std::span<
     if (std::abs(n.z()) > kUprightSine) continue;
     const Vec3 along = Vec3::UnitZ().cross(n).normalized();
     if (spread_along(seen, *face, along) * std::sqrt(12.0) < kShortestForYaw) continue;
-    const double error = direction_error(seen, *face, along);
+    const double error = direction_error(seen, *face, along).all();
     const double information = 1.0 / (error * error);
     const double angle = 4.0 * std::atan2(n.y(), n.x());
     sum += information * Vec2(std::cos(angle), std::sin(angle));

@@ -47,7 +47,7 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
     };
     const auto on_a = face_of(touch.a, n), on_b = face_of(touch.b, -n);
     if (!on_a || !on_b) continue;
-    if (touch.interface.gap > kClosable * problem.pair_tolerance(touch.a, touch.b)) continue;
+    if (std::abs(touch.interface.gap) > kClosable * problem.pair_tolerance(touch.a, touch.b)) continue;
     rows.push_back({*on_a, *on_b});
     gaps.push_back(touch.interface.gap);
   }

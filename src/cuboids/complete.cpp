@@ -45,15 +45,15 @@ void describe(const Problem& problem, const std::vector<char>& held, const Arran
     const int t = structure.touch_of_contact[p];
     if (contact_of_touch[t] >= 0) result.contacts[contact_of_touch[t]].forces[next[t]++] = b.forces[p];
   }
-  const std::vector<char> hangs = hanging(problem, arrangement, held);
+  const std::vector<char> is_held = held_up(problem, arrangement, held), hangs = hanging(problem, arrangement, held);
   for (int i = problem.supports_count(); i < problem.bodies(); ++i)
-    if (hangs[i]) result.unsupported.push_back(id(i));
+    if (is_held[i]) (hangs[i] ? result.unsupported : result.held_outside).push_back(id(i));
   result.fixed_contacts = static_cast<int>(arrangement.fixed.size());
   result.extended_volume = 0.0;
   for (const Cuboid& cuboid : result.cuboids)  // a face that was seen may have moved inwards, within noise
     result.extended_volume += std::max(0.0, cuboid.box.volume() - cuboid.initial.volume());
   result.stability.residual = b.residual;
-  result.stability.stable = b.residual < problem.stable_residual && result.unsupported.size() < result.cuboids.size();
+  result.stability.stable = b.residual < problem.stable_residual && result.unsupported.size() + result.held_outside.size() < result.cuboids.size();
   if (result.stability.stable) {
     result.stability.margin = margin(structure.bodies, structure.contacts, problem.stable_residual);
     result.stability.friction_needed = friction_needed(structure.bodies, structure.contacts, problem.stable_residual);
@@ -88,6 +88,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     problem.supports = result.supports;
     problem.cuboids = result.cuboids;
     problem.tolerance = tolerance;
+    problem.cut_off = cut_off(view, result.cuboids);
     problem.joints = joints_of(problem);
     part_overlaps(view, problem);
     rooms = find_rooms(view, problem.cuboids, tolerance);

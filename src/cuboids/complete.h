@@ -58,7 +58,12 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
 /// Whether an arrangement is at rest, the `held` bodies (a mark a body) being firm.
 bool stands(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held);
 
+/// The cuboids (a mark each) that the picture cuts off.
+std::vector<char> cut_off(const DepthView& view, const std::vector<Cuboid>& cuboids);
+
 /// The bodies that are held, or rigid with one that is, and not with a support (a mark a body).
+std::vector<char> held_up(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held);
+/// Those of them that are not rigid with what is held and cut off by the picture: something outside it can hold that.
 std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held);
 
 /// What nothing can support is held by its neighbour all the same, if nobody could see the link and both still stand: a fixed contact,

@@ -66,11 +66,12 @@ RefereeScore ask_referee(const Completion& result, const EvaluateOptions& option
   }
   for (const Contact& contact : result.contacts)
     if (contact.kind == ContactKind::fixed) scene.fixed.emplace_back(index.at(contact.a), index.at(contact.b));
-  for (const int id : result.unsupported) scene.fixed.emplace_back(-1, index.at(id));
+  for (const auto* ids : {&result.unsupported, &result.held_outside})
+    for (const int id : *ids) scene.fixed.emplace_back(-1, index.at(id));
   const std::vector<double> moved = simulate(scene, -Vec3::UnitZ(), options.seconds, context);
   RefereeScore score;
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    if (std::count(result.unsupported.begin(), result.unsupported.end(), result.cuboids[i].id) > 0) continue;
+    if (result.hangs(result.cuboids[i].id)) continue;
     ++score.bodies;
     score.still += moved[i] < kStill;
     score.farthest = std::max(score.farthest, moved[i]);

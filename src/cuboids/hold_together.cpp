@@ -71,7 +71,7 @@ void hold_together(const Problem& problem, const std::vector<char>& held, Arrang
       work += problem.bodies();
       context.check();
       Arrangement joined = arrangement;
-      joined.fixed.push_back({touch.a, touch.b});
+      joined.fix({touch.a, touch.b});
       Exact then = exactly(exact, joined, touches, held);
       const double before = now.unrest_of_group(touch.a) + now.unrest_of_group(touch.b);
       if (now.total - then.total < kWorth * before || (best && then.total >= best->total)) continue;
@@ -80,8 +80,7 @@ void hold_together(const Problem& problem, const std::vector<char>& held, Arrang
     }
     if (!best) break;
     now = std::move(*best);
-    arrangement.fixed.push_back(link);
-    std::sort(arrangement.fixed.begin(), arrangement.fixed.end());
+    arrangement.fix(link);
   }
 }
 

@@ -28,6 +28,7 @@ bool is_covered(const DepthView& view, const OrientedBox& box, int face, double 
 std::vector<Hypothesis> propose_contacts(const Problem& problem, const Rooms& rooms);
 
 inline constexpr double kFreeShare = 0.05;  ///< of samples: speckle and edges of the depth image
+inline constexpr double kHiddenRoom = 2.0;  ///< tolerances: a face with less room is one that was seen
 /// True if what a box adds to `known` ones lies in space that the view does not prove free, but for a share of it.
 bool in_hidden_space(const DepthView& view, std::span<const OrientedBox> known, const OrientedBox& box, double margin,
                      double share = kFreeShare);

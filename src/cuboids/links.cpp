@@ -9,6 +9,7 @@
 namespace unseen::cuboids {
 namespace {
 
+constexpr double kBorderPixels = 5.0;  // depth ends as far from the picture's border, or is not to be trusted there
 constexpr int kProjections = 100;
 constexpr int kSamples = 9;          // along a link
 constexpr int kTrials = 200;         // links that may be tried
@@ -62,7 +63,18 @@ std::vector<Link> links_of(const Problem& problem, const DepthView& view, const 
 
 }  // namespace
 
-std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held) {
+std::vector<char> cut_off(const DepthView& view, const std::vector<Cuboid>& cuboids) {
+  std::vector<char> out;
+  for (const Cuboid& cuboid : cuboids) {
+    OrientedBox box = cuboid.initial;
+    box.half_size.array() += kBorderPixels * view.spacing(box.center);
+    const std::vector<Vec3> corners = solid_of(box).vertices;
+    out.push_back(std::any_of(corners.begin(), corners.end(), [&](const Vec3& p) { return view.at(p) == DepthView::Space::outside; }));
+  }
+  return out;
+}
+
+std::vector<char> held_up(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held) {
   const std::vector<int> group = structure_of(problem, arrangement, {}, held).group;
   std::vector<char> out(problem.bodies(), 0);
   for (int i = problem.supports_count(); i < problem.bodies(); ++i) {
@@ -77,6 +89,16 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
   return out;
 }
 
+std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held) {
+  std::vector<char> out = held_up(problem, arrangement, held);
+  const std::vector<int> group = structure_of(problem, arrangement, {}, held).group;
+  for (int i = problem.supports_count(); i < problem.bodies(); ++i)
+    if (held[i] && problem.is_cut_off(i))
+      for (int other = 0; other < problem.bodies(); ++other)
+        if (group[other] == group[i]) out[other] = 0;
+  return out;
+}
+
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context) {
   std::vector<Link> links = links_of(problem, view, arrangement, hanging(problem, arrangement, held));
   int trials = 0;
@@ -88,8 +110,7 @@ void link_hanging(const Problem& problem, const DepthView& view, std::vector<cha
       const Structure now = structure_of(problem, arrangement, {}, held);
       if ((!hangs[link.a] && !hangs[link.b]) || now.group[link.a] == now.group[link.b]) continue;
       Arrangement linked = arrangement;
-      linked.fixed.push_back({link.a, link.b});
-      std::sort(linked.fixed.begin(), linked.fixed.end());
+      linked.fix({link.a, link.b});
       std::vector<char> freed = held;
       if (!hangs[link.a] || !hangs[link.b])  // the one that stands is to carry the other
         for (int i = problem.supports_count(); i < problem.bodies(); ++i)

@@ -15,7 +15,6 @@ constexpr int kSteps = 12, kRounds = 8;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr int kMostGrowth = 1200;  // arrangements that growing faces may be tried with, times bodies
 constexpr double kBetter = 0.9;  // of the energy: a step that leaves more is not worth its volume
-constexpr double kHidden = 2.0;  // tolerances: a face with less room is one that was seen
 constexpr double kProbe = 1e-4;  // m, of the derivative
 
 /// An arrangement with its balance at rest and under pushes.
@@ -111,7 +110,7 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const Admiss
       const double tolerance = problem.tolerance[i];
       if (!is_near[now.structure.group[problem.supports_count() + i]]) continue;
       for (int face = 0; face < 6; ++face) {
-        if (rooms[i][face] <= kHidden * tolerance) continue;
+        if (rooms[i][face] <= kHiddenRoom * tolerance) continue;
         for (double step = tolerance; step <= rooms[i][face] - now.arrangement.extension[i][face]; step *= 2.0) {
           Arrangement next = with_face(problem, now.arrangement, static_cast<int>(i), face, step);
           close_contacts(problem, touching_pairs(problem, next), next);
@@ -152,7 +151,7 @@ void lower_residual(const Problem& problem, const Rooms& rooms, const Admissible
           // Newton's step along the gradient for an energy whose least is 0; faces that were seen stay within noise.
           const double tolerance = problem.tolerance[i], hidden = rooms[i][face] - start[i][face];
           const double inward = start[i][face] > tolerance ? 4.0 * tolerance : 0.5 * tolerance;
-          const double outward = hidden > kHidden * tolerance ? hidden : 0.5 * tolerance;
+          const double outward = hidden > kHiddenRoom * tolerance ? hidden : 0.5 * tolerance;
           const double wanted = now.arrangement.extension[i][face] - share * 2.0 * now.energy / squared * slope[i][face];
           const double allowed = std::clamp(wanted, start[i][face] - inward, start[i][face] + outward);
           next = with_face(problem, std::move(next), static_cast<int>(i), face, allowed - next.extension[i][face]);

@@ -99,9 +99,8 @@ void end_overlaps(const DepthView& view, const Problem& problem, const std::vect
           continue;
         }
       }
-      arrangement.fixed.push_back({a, b});
+      arrangement.fix({a, b});
     }
-  std::sort(arrangement.fixed.begin(), arrangement.fixed.end());
 }
 
 }  // namespace unseen::cuboids

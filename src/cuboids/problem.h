@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -40,6 +41,7 @@ struct Problem {
   std::vector<Support> supports;
   std::vector<Cuboid> cuboids;          ///< with their initial boxes
   std::vector<double> tolerance;        ///< m, a cuboid: contacts within it count as touching
+  std::vector<char> cut_off;            ///< a mark a cuboid: the picture cuts it off; empty = none
   std::vector<std::array<int, 2>> joints;  ///< pairs of bodies that hold an object's pieces together
   std::vector<Hypothesis> hypotheses;
   double friction = 0.7;
@@ -50,6 +52,7 @@ struct Problem {
   int bodies() const { return static_cast<int>(supports.size() + cuboids.size()); }
   bool is_support(int body) const { return body < supports_count(); }
   const Cuboid& cuboid(int body) const { return cuboids[body - supports_count()]; }
+  bool is_cut_off(int body) const { return !is_support(body) && !cut_off.empty() && cut_off[body - supports_count()]; }
   double pair_tolerance(int a, int b) const;
   bool is_one_object(int a, int b) const {
     return !is_support(a) && !is_support(b) && cuboid(a).object >= 0 && cuboid(a).object == cuboid(b).object;
@@ -66,8 +69,10 @@ struct Arrangement {
   std::vector<Extension> extension;     ///< a cuboid
   std::vector<OrientedBox> boxes;       ///< a cuboid
   std::vector<ConvexSolid> solids;      ///< a cuboid
-  std::vector<std::array<int, 2>> fixed;  ///< pairs of bodies, the joints among them
+  std::vector<std::array<int, 2>> fixed;  ///< pairs of bodies, ordered, the joints among them
   double extended_volume = 0;           ///< m³
+
+  void fix(const std::array<int, 2>& pair) { fixed.insert(std::upper_bound(fixed.begin(), fixed.end(), pair), pair); }
 };
 
 /// Boxes after the moves of the chosen hypotheses; where several move one face, the longest move counts.

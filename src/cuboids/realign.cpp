@@ -14,6 +14,7 @@ namespace {
 const double kLooksThatWay = std::cos(radians(40.0)), kLargestTurn = std::cos(radians(20.0));
 constexpr std::array<double, 3> kReach = {0.3, 0.15, 0.08};  // of half a box's diagonal: how far its points may lie from it, round by round
 constexpr double kSideShare = 0.08, kSideSigmas = 3.0;       // of a size, and of the depth: by how much a given side may be wrong
+constexpr double kExplainsMore = 0.9;                        // what a box leaves unexplained, for it to replace the one that was given
 constexpr std::size_t kFewestPoints = 60;
 constexpr int kFewestPointsOfSide = 24;
 
@@ -100,6 +101,13 @@ OrientedBox fitted(const Observation& seen, const std::vector<int>& points, cons
   return box;
 }
 
+/// How badly the faces of a box explain points, 0 to 1 a point: by the share of their noise that they are off.
+double unexplained(const Observation& seen, const std::vector<int>& points, const OrientedBox& box) {
+  double sum = 0;
+  for (const int i : points) sum += std::min(1.0, distance_to_face(box, seen.points[i], seen.graph.normals[i]) / (kSideSigmas * seen.graph.sigma[i]));
+  return sum;
+}
+
 }  // namespace
 
 void realign(const RgbdFrame& frame, const Options& options, Completion& scene, Context& context) {
@@ -113,8 +121,12 @@ void realign(const RgbdFrame& frame, const Options& options, Completion& scene, 
     for (std::size_t i = 0; i < box_of.size(); ++i)
       if (box_of[i] >= 0) points[box_of[i]].push_back(static_cast<int>(i));
     for (const Face& face : faces.faces) sides[box_of[face.points.front()]].push_back(&face);
-    for (std::size_t k = 0; k < scene.cuboids.size(); ++k)
-      if (points[k].size() >= kFewestPoints) scene.cuboids[k].initial = fitted(seen, points[k], sides[k], scene.cuboids[k].initial);
+    for (std::size_t k = 0; k < scene.cuboids.size(); ++k) {
+      if (points[k].size() < kFewestPoints) continue;
+      OrientedBox& box = scene.cuboids[k].initial;
+      const OrientedBox again = fitted(seen, points[k], sides[k], box);
+      if (unexplained(seen, points[k], again) < kExplainsMore * unexplained(seen, points[k], box)) box = again;
+    }
   }
 }
 

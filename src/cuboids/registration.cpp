@@ -17,20 +17,20 @@ constexpr int kRounds = 40;
 constexpr double kShrink = 0.8, kLeastReach = 0.25;  // of the reach, a round and at last
 constexpr double kStill = 1e-5;                       // m and radians: nothing moves any more
 
-struct Points {
-  const std::vector<Vec3>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<Eigen::Index>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
-
 }  // namespace
 
 struct SampledSurface::Tree {
+  struct Points {
+    const std::vector<Vec3>& points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<Eigen::Index>(axis)]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
+
   explicit Tree(const std::vector<Vec3>& all) : points{all}, index(3, points, {10}) {}
   Points points;
   Index index;

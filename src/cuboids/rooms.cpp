@@ -12,6 +12,7 @@ constexpr double kUprightFace = 0.7;     // cosine
 constexpr double kFitOpen = 1.5;     // tolerances
 constexpr int kMaxSamples = 14;      // along one side of a face
 constexpr int kEdgeSamples = 9;      // along an edge
+constexpr int kFewestEdgeSamples = 3;  // that show something: depth is missing along edges
 constexpr double kFarthest = 3.0;    // m: no face moves farther than this
 
 /// Places along one side of a box, away from its edges, where flying pixels are.
@@ -46,13 +47,14 @@ bool is_covered(const DepthView& view, const OrientedBox& box, int face, double 
   const Vec3 upward = (box.axes(2, up) < 0.0 ? -1.0 : 1.0) * box.axes.col(up);
   const Vec3 middle = box.center + (box.half_size[axis] + distance) * face_normal(box, face) +
                       std::max(0.0, box.half_size[up] - 0.5 * tolerance) * upward;
-  int covered = 0;
+  int covered = 0, known = 0;
   for (int i = 0; i < kEdgeSamples; ++i) {
     const double t = 0.8 * (2.0 * i / (kEdgeSamples - 1) - 1.0) * box.half_size[along];
     const DepthView::Space space = view.at(middle + t * box.axes.col(along));
+    known += space != DepthView::Space::missing;
     covered += space != DepthView::Space::free && space != DepthView::Space::missing;
   }
-  return 2 * covered > kEdgeSamples;
+  return 2 * covered > known && known >= kFewestEdgeSamples;
 }
 
 static Extension room_of(const DepthView& view, const Cuboid& cuboid, double tolerance) {

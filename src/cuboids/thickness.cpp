@@ -23,6 +23,7 @@ void assume_thickness(const DepthView& view, Rooms& rooms, Problem& problem) {
       const double depth = 2.0 * std::min(box.half_size[(axis + 1) % 3], box.half_size[(axis + 2) % 3]);
       if (std::abs(box.axes(2, axis)) > kUpright || size > kThin * depth) continue;
       const int face = rooms[i][2 * axis] > rooms[i][2 * axis + 1] ? 2 * axis : 2 * axis + 1;
+      if (rooms[i][face] < kHiddenRoom * problem.tolerance[i]) continue;
       if (!is_covered(view, box, face, 4.0 * problem.tolerance[i], problem.tolerance[i])) continue;
       double length = std::min(depth - size, rooms[i][face]);
       for (std::size_t j = 0; j < solids.size(); ++j)

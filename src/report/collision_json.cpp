@@ -55,8 +55,9 @@ std::string collision_json(const Reconstruction& r, const InputRecord& input, co
   json["mass_ratio"] = or_null(r.mass_ratio, estimate_of);
   json["fixed"] = r.fixed.empty() ? Json(nullptr) : Json(r.fixed);
   json["fits"] = r.fits;
-  json["ambiguous"] = list_of(r.ambiguous, [](const Alternative& a, std::size_t) -> Json {
-    return {{"what", a.what}, {"restitution", number(a.restitution)}, {"mass_ratio", number(a.mass_ratio)}, {"excess", number(a.excess)}};
+  json["ambiguous"] = list_of(r.ambiguous, [&](const Alternative& a, std::size_t) -> Json {
+    const Json mass_ratio = r.fixed.empty() ? number(a.mass_ratio) : Json(nullptr);
+    return {{"what", a.what}, {"restitution", number(a.restitution)}, {"mass_ratio", mass_ratio}, {"excess", number(a.excess)}};
   });
   write_first_impact(json, r.impacts);
   json["gravity_direction"] = vector_of(r.gravity_direction);

@@ -107,7 +107,8 @@ void read_solution(Reconstruction& r, const JsonField& json) {
   for (const BodyResult& b : r.bodies)
     if (b.fixed && b.name != r.fixed) json["fixed"].fail(b.name);
   for (const JsonField& field : json["ambiguous"].list())
-    r.ambiguous.push_back({field["what"].text(), field["restitution"].number(), field["mass_ratio"].number(), field["excess"].number()});
+    r.ambiguous.push_back({field["what"].text(), field["restitution"].number(), r.fixed.empty() ? field["mass_ratio"].number() : 0.0,
+                           field["excess"].number()});
   for (const JsonField& field : json["frames"].list()) r.frames.push_back(frame(field, r.bodies.size()));
   for (const JsonField& field : json["residuals"].list()) r.residuals.push_back(residual(field));
 }

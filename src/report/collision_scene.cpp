@@ -54,7 +54,7 @@ void add_body_table(SceneBuilder& scene, const Reconstruction& r) {
 
 void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
   Json alternatives = Json::array(), terms = Json::array(), weak = Json::array();
-  for (const Alternative& a : r.ambiguous) alternatives.push_back({a.what, number(a.restitution), number(a.mass_ratio), number(a.excess)});
+  for (const Alternative& a : r.ambiguous) alternatives.push_back({a.what, number(a.restitution), r.fixed.empty() ? number(a.mass_ratio) : Json(nullptr), number(a.excess)});
   for (const Term& t : r.terms) terms.push_back({t.name, number(t.residual), number(t.weight)});
   for (const std::string& text : r.observability) weak.push_back({text});
   add_table(scene, "Ambiguous: also explained by", {column("what"), column("restitution", "", 3), column("mass ratio", "", 3), column("larger χ² by", "", 1)},

@@ -55,6 +55,7 @@ std::string cuboids_json(const cuboids::Completion& c, const InputRecord& input,
   json["fixed_contacts"] = c.fixed_contacts;
   json["extended_volume"] = number(c.extended_volume);
   json["unsupported"] = c.unsupported;
+  json["held_outside"] = c.held_outside;
   json["search"] = {{"nodes", c.search.nodes}, {"pruned", c.search.pruned}, {"optimal", c.search.optimal}};
   return text_of(json);
 }

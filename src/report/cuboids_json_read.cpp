@@ -94,10 +94,14 @@ cuboids::Completion parse_cuboids_result(const std::string& text, const std::str
                  stability["friction_needed"].number(0)};
   c.fixed_contacts = json["fixed_contacts"].index(c.contacts.size() + 1);
   c.extended_volume = json["extended_volume"].number(0);
-  for (const JsonField& field : json["unsupported"].list()) {
-    c.unsupported.push_back(known_id(field, ids));
-    if (supports.count(c.unsupported.back()) != 0) field.fail("the id of a cuboid");
-  }
+  const auto read_cuboid_ids = [&](const JsonField& list, std::vector<int>& out) {
+    for (const JsonField& field : list.list()) {
+      out.push_back(known_id(field, ids));
+      if (supports.count(out.back()) != 0) field.fail("the id of a cuboid");
+    }
+  };
+  read_cuboid_ids(json["unsupported"], c.unsupported);
+  read_cuboid_ids(json["held_outside"], c.held_outside);
   c.search = {search["nodes"].count(), search["pruned"].count(), search["optimal"].truth()};
   return c;
 }

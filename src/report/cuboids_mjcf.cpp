@@ -70,9 +70,7 @@ std::string support_geom(const Completion& c, const cuboids::Support& s) {
 }
 
 std::string group_body(const Completion& c, const RigidGroup& group) {
-  const bool unsupported = std::any_of(group.cuboids.begin(), group.cuboids.end(), [&](std::size_t i) {
-    return std::find(c.unsupported.begin(), c.unsupported.end(), c.cuboids[i].id) != c.unsupported.end();
-  });
+  const bool hangs = std::any_of(group.cuboids.begin(), group.cuboids.end(), [&](std::size_t i) { return c.hangs(c.cuboids[i].id); });
   Vec3 center = Vec3::Zero();
   double mass = 0;
   std::string name;
@@ -83,9 +81,9 @@ std::string group_body(const Completion& c, const RigidGroup& group) {
   }
   center /= mass;
   std::string text;
-  if (unsupported) text += "    <!-- nothing can support this: held where it was seen -->\n";
+  if (hangs) text += "    <!-- nothing in the scene can support this: held where it was seen -->\n";
   text += fmt::format("    <body name=\"{}\" pos=\"{}\">\n", escape(name), attribute_of(center));
-  if (!unsupported && group.support < 0) text += "      <freejoint/>\n";
+  if (!hangs && group.support < 0) text += "      <freejoint/>\n";
   for (const std::size_t i : group.cuboids) text += "      " + geom_of(c.cuboids[i], center, static_cast<int>(i));
   return text + "    </body>\n";
 }

@@ -25,8 +25,9 @@ std::string sizes(const OrientedBox& box) {
 void add_box_table(SceneBuilder& scene, const Completion& c) {
   Json rows = Json::array();
   for (const cuboids::Cuboid& cuboid : c.cuboids) {
-    const bool unsupported = std::find(c.unsupported.begin(), c.unsupported.end(), cuboid.id) != c.unsupported.end();
-    const std::string remark = unsupported                    ? "unsupported"
+    const auto in = [&](const std::vector<int>& ids) { return std::find(ids.begin(), ids.end(), cuboid.id) != ids.end(); };
+    const std::string remark = in(c.unsupported)              ? "unsupported"
+                               : in(c.held_outside)           ? "held outside"
                                : cuboid.by_symmetry           ? "by symmetry"
                                : hidden_boxes(cuboid).empty() ? ""
                                                               : "completed";
@@ -89,6 +90,7 @@ Json facts_of(const Completion& c, const OptionTable& options) {
   fact("residual", fmt::format("{:.2g}", c.stability.residual));
   fact("fewest fixed contacts", c.search.optimal ? "proven" : "not proven");
   if (!c.unsupported.empty()) fact("unsupported", std::to_string(c.unsupported.size()));
+  if (!c.held_outside.empty()) fact("held outside the picture", std::to_string(c.held_outside.size()));
   return facts;
 }
 

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "cuboids/complete.h"
+#include "cuboids/hypotheses.h"
 #include "perception_scenes.h"
+#include "unseen/cuboids/cuboids.h"
 
 namespace unseen::cuboids::test {
 namespace {
@@ -44,6 +46,59 @@ TEST(Realign, BringsBackWhatWasTurnedAndSizedWrong) {
       EXPECT_LT((box.center - truth.center).norm(), 0.008) << seed << " " << i;
     }
   }
+}
+
+TEST(Realign, KeepsWhatExplainsItsPoints) {
+  Scene scene;  // flush: the points of each fit the other's front too
+  scene.boxes = {upright(-0.1, 0.7, 0, {0.2, 0.15, 0.2}, 0), upright(0.1, 0.7, 0, {0.2, 0.15, 0.2}, 0), upright(0.0, 0.7, 0.2, {0.25, 0.15, 0.1}, 0)};
+  Completion c = given(scene, 0.0, 0.0, 1);
+  Context context;
+  realign(render(scene), {}, c, context);
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    EXPECT_EQ(c.cuboids[i].initial.center, scene.boxes[i].center) << i;
+    EXPECT_EQ(c.cuboids[i].initial.half_size, scene.boxes[i].half_size) << i;
+  }
+}
+
+TEST(CutOff, IsWhatReachesThePicturesBorder) {
+  Scene scene;
+  scene.boxes = {upright(0.05, 0.8, 0, {0.15, 0.15, 0.1}, 15), upright(-0.62, 0.95, 0.2, {0.3, 0.1, 0.06}, 0)};
+  const DepthView view(render(scene), camera_of(scene), scene.noise);
+  Cuboid inside, border;
+  inside.initial = scene.boxes[0];
+  border.initial = scene.boxes[1];
+  EXPECT_EQ(cut_off(view, {inside, border}), (std::vector<char>{0, 1}));
+}
+
+TEST(CutOff, WhatNothingInThePictureHoldsIsSaidToBeHeldOutsideIt) {
+  Scene scene;  // the second one floats over ground that is seen
+  scene.boxes = {upright(0.05, 0.8, 0, {0.15, 0.15, 0.1}, 15), upright(-0.62, 0.95, 0.2, {0.3, 0.1, 0.06}, 0)};
+  const auto completed = [&] {
+    Context context;
+    return complete_cuboids(render(scene), Options{}, context);
+  };
+  const Completion cut = completed();
+  ASSERT_EQ(cut.cuboids.size(), 2u);
+  EXPECT_TRUE(cut.unsupported.empty());
+  ASSERT_EQ(cut.held_outside.size(), 1u);
+  scene.boxes[1].center.x() = -0.3;
+  const Completion whole = completed();
+  EXPECT_EQ(whole.unsupported.size(), 1u);
+  EXPECT_TRUE(whole.held_outside.empty());
+}
+
+TEST(IsCovered, ThroughPixelsWithoutDepthAlongTheEdge) {
+  Scene scene;
+  scene.boxes = {upright(0.0, 0.7, 0, {0.3, 0.08, 0.3}, 0), upright(0.0, 0.85, 0, {0.25, 0.1, 0.2}, 0)};
+  RgbdFrame frame = render(scene);
+  const auto covered = [&] { return is_covered(DepthView(frame, camera_of(scene), scene.noise), scene.boxes[1], 3, 0.05, 0.005); };
+  ASSERT_TRUE(covered());
+  Random random(2);
+  for (float& depth : frame.depth)
+    if (random.uniform(0.0, 1.0) < 0.6) depth = 0.0F;
+  EXPECT_TRUE(covered());
+  for (float& depth : frame.depth) depth = 0.0F;
+  EXPECT_FALSE(covered());
 }
 
 TEST(Realign, KeepsWhatNobodySaw) {

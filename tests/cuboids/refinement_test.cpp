@@ -21,6 +21,44 @@ TEST(CloseContacts, LeavesNoGapAndNoOverlap) {
   EXPECT_NEAR(a.boxes[1].half_size.x(), 0.1, 1e-9);  // what no contact asks for stays
 }
 
+TEST(CloseContacts, LeavesWhatOverlapsFar) {
+  // One that was fitted askew through the other: no face moves by centimetres for it.
+  const Problem problem = problem_of({box({0, 0, 0.1}, {0.3, 0.3, 0.2}), box({0.02, 0, 0.17}, {0.2, 0.2, 0.1})});
+  Arrangement a = arrange(problem, {});
+  close_contacts(problem, touching_pairs(problem, a), a);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT((a.boxes[i].half_size - problem.cuboids[i].initial.half_size).cwiseAbs().maxCoeff(), 1e-4) << i;
+}
+
+TEST(Hanging, IsNotSaidOfWhatThePictureCutsOff) {
+  Problem problem = problem_of({box({0, 0, 0.5}, {0.1, 0.1, 0.1}), box({0.1, 0, 0.5}, {0.1, 0.1, 0.1}), box({1, 0, 0.5}, {0.1, 0.1, 0.1})});
+  problem.cut_off = {1, 0, 0};
+  Arrangement a = arrange(problem, {});
+  a.fix({1, 2});
+  const std::vector<char> held = {0, 1, 0, 1};
+  EXPECT_EQ(held_up(problem, a, held), (std::vector<char>{0, 1, 1, 1}));
+  EXPECT_EQ(hanging(problem, a, held), (std::vector<char>{0, 0, 0, 1}));
+  problem.cut_off.clear();
+  EXPECT_EQ(hanging(problem, a, held), (std::vector<char>{0, 1, 1, 1}));
+}
+
+TEST(AssumeThickness, LeavesASideThatWasSeen) {
+  Problem problem = problem_of({box({0, 1, 0.1}, {0.3, 0.04, 0.2})});
+  RgbdFrame frame;
+  frame.camera = {500, 500, 319.5, 239.5, 640, 480};
+  frame.depth.assign(640 * 480, 0.5F);  // a surface before it: nothing of its back is seen free
+  RigidTransform T_world_camera;
+  T_world_camera.rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+  const DepthView view(frame, T_world_camera, 0.0015);
+  Rooms rooms(1, Extension{});
+  rooms[0][3] = 1.5 * problem.tolerance[0];  // what the fit leaves open
+  assume_thickness(view, rooms, problem);
+  EXPECT_NEAR(problem.cuboids[0].initial.half_size.y(), 0.02, 1e-12);
+  rooms[0][3] = 0.1;
+  assume_thickness(view, rooms, problem);
+  EXPECT_GT(problem.cuboids[0].initial.half_size.y(), 0.06);
+}
+
 TEST(LowerResidual, MovesAnEdgeUnderTheCentreOfMass) {
   // The upper box hangs over by half a millimetre too much; noise leaves room for that.
   Problem problem = problem_of({box({0, 0, 0.1}, {0.1, 0.1, 0.2}), box({0.0505, 0, 0.25}, {0.1, 0.1, 0.1})});

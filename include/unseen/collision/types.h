@@ -129,7 +129,7 @@ struct Residual {
 /// A solution that explains the data nearly as well.
 struct Alternative {
   std::string what;
-  double restitution = 0, mass_ratio = 0, excess = 0;  ///< excess: by how much χ² is larger
+  double restitution = 0, mass_ratio = 0, excess = 0;  ///< mass_ratio: means nothing with a fixed partner; excess: by how much χ² is larger
 };
 
 /// Both motions and what they tell. World: z up, origin at the camera's centre.

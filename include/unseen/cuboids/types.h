@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -71,8 +72,12 @@ struct Completion {
   int fixed_contacts = 0;
   double extended_volume = 0;    ///< m³
   std::vector<int> unsupported;  ///< ids of cuboids that nothing can support
+  std::vector<int> held_outside;  ///< ids of cuboids that the picture cuts off, and that only something outside it can hold
   SearchReport search;
   Summary summary;
+
+  /// Nothing in the scene holds a cuboid up.
+  bool hangs(int id) const { return std::count(unsupported.begin(), unsupported.end(), id) + std::count(held_outside.begin(), held_outside.end(), id) > 0; }
 };
 
 }  // namespace unseen::cuboids

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/level_floor.h"
+#include "collision/normal_doubts.h"
 
 #include <ceres/jet.h>
 #include <fmt/format.h>
@@ -17,6 +17,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kStops = 0.4;       // of a hollow ball's speed: the most that friction takes from one that does not spin
+constexpr double kUsualFriction = 0.3;  // coefficient
 constexpr double kLeast = 0.08;      // rad: a smaller tilt moves the restitution by a hundredth or less
 constexpr double kUnlikely = 13.8;   // χ² of two numbers that chance exceeds once in a thousand
 
@@ -64,6 +65,22 @@ void doubt_level(Solution& solution) {
   const double c = std::clamp(restitution<double>(problem, tilted, values_of(problem, tilted)), 0.0, 1.0);
   const double tilt = degrees(line_angle(fit.state.impulse, fit.state.down));
   solution.others.push_back({fmt::format("a floor that is tilted by {:.0f}°, where a level one needs a ball that spins: c = {:.2f}", tilt, c), c, fit.state.mass_ratio, 0.0});
+}
+
+void doubt_normal(Solution& solution) {
+  const Problem& problem = solution.problem;
+  const State& state = solution.fit.state;
+  if (!problem.friction || !problem.is_of_centres()) return;
+  const StateT<double> s = values_of(problem, state);
+  const auto meeting = [&](bool after) -> Vec3 { return contact_velocity<double>(problem, s, 0, after) - contact_velocity<double>(problem, s, 1, after); };
+  const Vec3 before = meeting(false), after = meeting(true), along = (after - before).normalized();
+  const Vec3 sliding = before - along * before.dot(along);
+  const double speed = sliding.norm(), change = (after - before).norm();
+  if (change < 1e-9 || speed < 1e-9) return;
+  const double friction = std::min(kUsualFriction, kStops * speed / change);
+  const Vec3 normal = (along + friction * sliding / speed).normalized();
+  const double c = std::clamp(-after.dot(normal) / std::min(-1e-6, before.dot(normal)), 0.0, 1.0);
+  solution.others.push_back({fmt::format("a contact with a friction of {:.2f}: c = {:.2f}", friction, c), c, state.mass_ratio, 0.0});
 }
 
 Vec3 error_by_vertical(const Problem& problem, const Fit& fit) {

@@ -7,6 +7,7 @@
 
 #include "collision/restitution.h"
 #include "unseen/collision/collision.h"
+#include "unseen/collision/synth.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision {
@@ -118,6 +119,39 @@ TEST(LevelFloor, ATiltThatNoFrictionExplainsIsToldAndCounted) {
 TEST(LevelFloor, AnOrdinaryBounceIsNotAmbiguous) {
   Context context;
   EXPECT_TRUE(reconstruct(filmed({{0, -2.2, 0.7}, 0, 20, {-0.5, 0, 1.1}, {0.7, 0, 0}, 0, 1, 50}, 1), {}, context).ambiguous.empty());
+}
+
+TEST(UnknownNormal, AWallThatNobodyDescribedReadsTheRestitution) {
+  const View wall{{0, -2.2, 0.7}, 0, 0, {0.8, 0.0, 1.2}, {-2.5, 0.2, 1.0}, 80, 1, 40};
+  for (int seed = 1; seed <= 3; ++seed) {
+    Context context;
+    const Reconstruction r = reconstruct(filmed(wall, seed), {}, context);
+    ASSERT_TRUE(r.restitution) << seed << " " << (r.summary.warnings.empty() ? "" : r.summary.warnings[0]);
+    EXPECT_NEAR(r.restitution->value, kC, 0.05) << seed;
+    EXPECT_LT(r.restitution->low, kC) << seed;
+    EXPECT_GT(r.restitution->high, kC) << seed;
+  }
+}
+
+TEST(ModelCheck, AWrongSightingOrTwoRefuseNothing) {
+  SynthOptions synth;
+  synth.scene = "balls";
+  synth.video = false;
+  synth.centroid_noise = 0.01;
+  Context context;
+  Shot shot = simulate(synth).shot;
+  shot.observations[10].pixel += Vec2(40, -25);
+  shot.observations[shot.observations.size() - 9].pixel += Vec2(-30, 50);
+  const Reconstruction r = reconstruct(shot, {}, context);
+  EXPECT_TRUE(r.fits);
+  EXPECT_TRUE(r.restitution);
+  int seen = 0;
+  for (const Residual& residual : r.residuals)
+    if ((residual.seen - residual.predicted).norm() > 15.0) {
+      ++seen;
+      EXPECT_FALSE(residual.used);
+    }
+  EXPECT_EQ(seen, 2);
 }
 
 TEST(Restitution, ErrorsThatImpactsShareDoNotAverageOut) {
