@@ -122,7 +122,7 @@ TEST(LevelFloor, AnOrdinaryBounceIsNotAmbiguous) {
 }
 
 TEST(UnknownNormal, AWallThatNobodyDescribedReadsTheRestitution) {
-  const View wall{{0, -2.2, 0.7}, 0, 0, {0.8, 0.0, 1.2}, {-2.5, 0.2, 1.0}, 80, 1, 40};
+  const View wall{{0, -2.2, 0.7}, 0, 0, {0.8, 0.0, 0.6}, {-3.5, 0.2, 1.9}, 80, 1, 30};
   for (int seed = 1; seed <= 3; ++seed) {
     Context context;
     const Reconstruction r = reconstruct(filmed(wall, seed), {}, context);
