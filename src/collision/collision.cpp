@@ -2,6 +2,11 @@
 // Copyright (c) 2026 the unseen authors
 #include "unseen/collision/collision.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
 #include "collision/describe.h"
 #include "collision/drag.h"
 #include "collision/remarks.h"
@@ -13,6 +18,22 @@
 
 namespace unseen::collision {
 namespace {
+
+/// Orientations of a time at which nobody saw the body tell nothing.
+void warn_of_far_orientations(const Shot& shot, const Tracks& tracks, Context& context) {
+  for (std::size_t k = 0; k < shot.orientations.size(); ++k) {
+    const OrientationHint& hint = shot.orientations[k];
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (const TrackPoint& p : tracks.points) {
+      if (p.body != hint.body) continue;
+      first = std::min(first, p.time);
+      last = std::max(last, p.time);
+    }
+    const double beyond = kBeyondFlights * (last - first);
+    if (last >= first && (hint.time < first - beyond || hint.time > last + beyond))
+      context.warn(fmt::format("{}: orientations[{}]: {} was not seen at {:.4g} s: left out", shot.name, k, shot.bodies[hint.body].name, hint.time));
+  }
+}
 
 /// What the film, or the sightings in its place, show.
 struct Evidence {
@@ -59,6 +80,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   if (shot.bodies[1].shape == Shape::fixed) result.fixed = shot.bodies[1].name;
   for (const Body& body : shot.bodies) result.bodies.push_back({body.name, body.shape == Shape::fixed, Vec3::Zero(), {}, {}});
 
+  warn_of_far_orientations(shot, tracks, context);
   std::vector<SolvedImpact> impacts;
   {
     const Stage stage(context, summary, "positions");

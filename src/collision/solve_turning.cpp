@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "collision/centering.h"
 #include "collision/rotation.h"
@@ -17,15 +18,21 @@ constexpr int kKept = 3;     // rotations of a flight that are looked at
 constexpr int kCombined = 8;  // combinations of them that are solved
 constexpr double kHopeless = 150.0;  // χ² above the best one's
 
-/// Given orientations within the flights that meet in this impact.
+/// Given orientations within the flights that meet in this impact, or little before and after what was seen of them.
 std::vector<OrientationObservation> given(const Shot& shot, const Problem& problem) {
   std::vector<OrientationObservation> all;
   for (const OrientationHint& hint : shot.orientations) {
     if (shot.bodies[hint.body].shape == Shape::fixed || problem.solids[hint.body].is_sphere()) continue;
     const PointObservation* nearest = nullptr;  // tells the side
-    for (const PointObservation& p : problem.points)
-      if (p.body == hint.body && (!nearest || std::abs(p.time - hint.time) < std::abs(nearest->time - hint.time))) nearest = &p;
-    if (!nearest) continue;
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (const PointObservation& p : problem.points) {
+      if (p.body != hint.body) continue;
+      first = std::min(first, p.time);
+      last = std::max(last, p.time);
+      if (!nearest || std::abs(p.time - hint.time) < std::abs(nearest->time - hint.time)) nearest = &p;
+    }
+    const double beyond = kBeyondFlights * (last - first);
+    if (!nearest || hint.time < first - beyond || hint.time > last + beyond) continue;
     all.push_back({hint.body, nearest->after, hint.time, (hint.q * problem.solids[hint.body].file_to_principal.conjugate()).normalized()});
   }
   return all;

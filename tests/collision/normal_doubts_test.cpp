@@ -154,6 +154,23 @@ TEST(ModelCheck, AWrongSightingOrTwoRefuseNothing) {
   EXPECT_EQ(seen, 2);
 }
 
+TEST(Orientations, OfATimeWithoutFlightsAreLeftOutAndTold) {
+  SynthOptions synth;
+  synth.scene = "boxes";
+  synth.video = false;
+  Shot shot = simulate(synth).shot;
+  Context context;
+  const Reconstruction without = reconstruct(shot, {}, context);
+  EXPECT_TRUE(without.summary.warnings.empty());
+  shot.orientations.push_back(shot.orientations[0]);
+  shot.orientations.back().time = 1e6;
+  const Reconstruction with = reconstruct(shot, {}, context);
+  ASSERT_TRUE(with.restitution && without.restitution);
+  EXPECT_EQ(with.restitution->value, without.restitution->value);
+  ASSERT_EQ(with.summary.warnings.size(), 1u);
+  EXPECT_NE(with.summary.warnings[0].find("orientations["), std::string::npos);
+}
+
 TEST(Restitution, ErrorsThatImpactsShareDoNotAverageOut) {
   const std::vector<Estimate> two = {{0.7, 0.02, 0, 0}, {0.7, 0.02, 0, 0}};
   EXPECT_NEAR(pooled(two).sd, 0.02 / std::sqrt(2.0), 1e-12);
