@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "collision/minkowski.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -22,9 +24,6 @@ double lowest(const Corners& corners, const Vec3& n) {
   for (const Vec3& c : corners) low = std::min(low, n.dot(c));
   return low;
 }
-
-/// By how much `n` separates a (in front) from b (behind).
-double separation(const Corners& a, const Corners& b, const Vec3& n) { return lowest(a, n) + lowest(b, -n); }
 
 /// The corners that are lowest along `n`, within the tolerance.
 Corners lowest_corners(const Corners& corners, const Vec3& n, double tolerance) {
@@ -140,66 +139,33 @@ void locate(const Corners& a, const Corners& b, double tolerance, Proximity& nea
                    feature_of(high, high.size() == 1 ? high[0] : center, high.size() == 1 ? Vec3(e1 * high[0].x() + e2 * high[0].y() - n * lowest(b, -n)) : near.point_b, n, e1, e2)};
 }
 
-/// A normal that a contact can have, with the features that it follows.
-struct Axis {
-  Vec3 n;
-  ContactLaw::Kind kind;
-  Vec3 a = Vec3::Zero(), b = Vec3::Zero(), edge = Vec3::Zero();
-  double sign = 1.0;
-
-  ContactLaw law() const { return {kind, a, b, edge, sign}; }
-};
-
-/// Of faces, or across an edge of each; towards a sphere, from the nearest point.
-std::vector<Axis> candidates(const Solid& a, const Quat& q_a, const Corners& corners_a, const Solid& b, const Quat& q_b, const Corners& corners_b) {
-  using Kind = ContactLaw::Kind;
-  std::vector<Axis> all;
-  for (const Vec3& n : b.hull.normals) all.push_back({q_b * n, Kind::face_b, Vec3::Zero(), n});
-  for (const Vec3& n : a.hull.normals) all.push_back({-(q_a * n), Kind::face_a, n});
-  for (const Vec3& u : a.hull.edges)
-    for (const Vec3& v : b.hull.edges) {
-      const Vec3 n = (q_a * u).cross(q_b * v);
-      if (n.norm() < 1e-3) continue;
-      for (const double sign : {1.0, -1.0}) all.push_back({sign * n.normalized(), Kind::edges, u, v, Vec3::Zero(), sign});
-    }
-  if (!a.is_sphere() && !b.is_sphere()) return all;
-  // from each corner and each edge of the other to the sphere's centre
-  const Corners &centers = a.is_sphere() ? corners_a : corners_b, &others = a.is_sphere() ? corners_b : corners_a;
-  const Vec3 center = centers.front();
-  const double sign = a.is_sphere() ? 1.0 : -1.0;
-  const Solid& polytope = a.is_sphere() ? b : a;
-  const Quat& q = a.is_sphere() ? q_b : q_a;
-  const auto add = [&](const Vec3& off, std::size_t corner, const Vec3& edge) {
-    if (off.norm() < 1e-12) return;
-    const Vec3 local = polytope.hull.vertices.empty() ? Vec3(Vec3::Zero()) : polytope.hull.vertices[corner];
-    all.push_back({sign * off.normalized(), Kind::centers, a.is_sphere() ? Vec3(Vec3::Zero()) : local, a.is_sphere() ? local : Vec3(Vec3::Zero()), edge});
-  };
-  for (std::size_t i = 0; i < others.size(); ++i) add(center - others[i], i, Vec3::Zero());
-  for (const Vec3& edge : polytope.hull.edges) {
-    const Vec3 e = q * edge;
-    for (std::size_t i = 0; i < others.size(); ++i) add((center - others[i]) - e * e.dot(center - others[i]), i, edge);
-  }
-  return all;
-}
-
 }  // namespace
+
+Proximity contact_along(const Solid& a, const Vec3& p_a, const Quat& q_a, const Solid& b, const Vec3& p_b, const Quat& q_b, const MinkowskiFace& face,
+                        double tolerance) {
+  Proximity near;
+  near.normal = face.normal;
+  near.law = face.law;
+  near.gap = face.normal.dot(p_a - p_b) - face.reach - a.radius - b.radius;
+  locate(placed(a, p_a, q_a), placed(b, p_b, q_b), tolerance, near);
+  near.point_a -= a.radius * near.normal;
+  near.point_b += b.radius * near.normal;
+  return near;
+}
 
 std::optional<Proximity> nearest(const Solid& a, const Vec3& p_a, const Quat& q_a, const Solid& b, const Vec3& p_b, const Quat& q_b,
                                  double tolerance) {
   if (!a.known_shape || !b.known_shape) return std::nullopt;
-  const Corners corners_a = placed(a, p_a, q_a), corners_b = placed(b, p_b, q_b);
-  Proximity near;
-  near.gap = -std::numeric_limits<double>::infinity();
-  for (const Axis& axis : candidates(a, q_a, corners_a, b, q_b, corners_b)) {
-    const double gap = separation(corners_a, corners_b, axis.n);
-    if (gap > near.gap + 1e-12) near.gap = gap, near.normal = axis.n, near.law = axis.law();
-  }
-  if (!std::isfinite(near.gap)) return std::nullopt;  // the centres of two spheres coincide
-  locate(corners_a, corners_b, tolerance, near);
-  near.point_a -= a.radius * near.normal;
-  near.point_b += b.radius * near.normal;
-  near.gap -= a.radius + b.radius;
-  return near;
+  const Vec3 apart = p_a - p_b;
+  std::vector<MinkowskiFace> faces = minkowski_faces(a.hull, q_a, b.hull, q_b);
+  if (a.is_sphere() || b.is_sphere())
+    for (const MinkowskiFace& face : round_faces(a, q_a, b, q_b, apart)) faces.push_back(face);
+  const MinkowskiFace* best = nullptr;
+  const auto gap = [&](const MinkowskiFace& face) { return face.normal.dot(apart) - face.reach; };
+  for (const MinkowskiFace& face : faces)
+    if (!best || gap(face) > gap(*best) + 1e-12) best = &face;
+  if (!best) return std::nullopt;  // the centres of two spheres coincide
+  return contact_along(a, p_a, q_a, b, p_b, q_b, *best, tolerance);
 }
 
 Proximity nearest_to_plane(const Solid& a, const Vec3& p_a, const Quat& q_a, const Vec3& normal, double tolerance) {

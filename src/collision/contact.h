@@ -11,11 +11,18 @@
 
 namespace unseen::collision {
 
+/// An edge between two faces of a polytope.
+struct HullEdge {
+  Vec3 from;         ///< m, one of its ends
+  Vec3 direction;    ///< unit, along left × right
+  Vec3 left, right;  ///< outward normals of the two faces
+};
+
 /// A convex polytope by what a contact with it can have as its normal.
 struct Hull {
-  std::vector<Vec3> vertices;  ///< m
-  std::vector<Vec3> normals;   ///< of the faces, outwards, each direction once
-  std::vector<Vec3> edges;     ///< unit, each direction once, either way
+  std::vector<Vec3> vertices;   ///< m
+  std::vector<Vec3> normals;    ///< of the faces, outwards, each direction once
+  std::vector<HullEdge> edges;  ///< each once
 };
 
 Hull hull_of(const std::vector<Vec3>& points);
@@ -43,6 +50,13 @@ struct ContactLaw {
   double sign = 1;                          ///< of edges
 };
 
+/// A face of the Minkowski difference of two solids that are turned as they are: a way in which they can touch.
+struct MinkowskiFace {
+  Vec3 normal;       ///< unit, from the second body to the first
+  double reach = 0;  ///< m: how far apart the centres are along the normal when the bodies touch, without the radii of spheres
+  ContactLaw law;
+};
+
 /// What touches of one body: a corner, an edge or a face.
 struct Feature {
   Vec3 point = Vec3::Zero();     ///< on the surface, at the contact
@@ -63,6 +77,10 @@ struct Proximity {
 /// `tolerance` (m): what is that near counts as touching. Nothing if a shape is unknown.
 std::optional<Proximity> nearest(const Solid& a, const Vec3& p_a, const Quat& q_a, const Solid& b, const Vec3& p_b, const Quat& q_b,
                                double tolerance);
+
+/// The same where the normal is known already.
+Proximity contact_along(const Solid& a, const Vec3& p_a, const Quat& q_a, const Solid& b, const Vec3& p_b, const Quat& q_b, const MinkowskiFace& face,
+                        double tolerance);
 
 /// The same for a solid and a plane somewhere behind it, of which only the normal is known: the gap is 0.
 Proximity nearest_to_plane(const Solid& a, const Vec3& p_a, const Quat& q_a, const Vec3& normal, double tolerance);

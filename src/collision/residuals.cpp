@@ -5,6 +5,8 @@
 #include <ceres/loss_function.h>
 #include <ceres/sized_cost_function.h>
 
+#include <algorithm>
+
 #include "collision/physics_terms.h"
 #include "collision/seen_terms.h"
 
@@ -87,10 +89,29 @@ double touch_sigma(const Problem& problem) {
 
 }  // namespace
 
+Evaluation::Evaluation(const Problem& problem, const State& reference) : problem(problem), reference(reference), turned(problem.orientations.size()) {
+  for (const int body : {0, 1})
+    for (const bool after : {false, true}) {
+      SeenTurning seen{body, after, {}};
+      for (std::size_t i = 0; i < problem.orientations.size() && problem.terms.orientation; ++i)
+        if (problem.orientations[i].body == body && problem.orientations[i].after == after) seen.orientations.push_back(i);
+      const auto time = [&](std::size_t i) { return problem.orientations[i].time; };
+      std::stable_sort(seen.orientations.begin(), seen.orientations.end(), [&](std::size_t a, std::size_t b) { return after ? time(a) < time(b) : time(a) > time(b); });
+      if (!seen.orientations.empty()) turnings_.push_back(std::move(seen));
+    }
+}
+
 void Evaluation::PrepareForEvaluation(bool jacobians, bool new_point) {
   if (!new_point && (!jacobians || has_derivatives)) return;
   state = unpack<double>(problem, reference, unknowns.data());
   has_derivatives = jacobians;
+  for (const SeenTurning& seen : turnings_) {
+    const auto o = static_cast<std::size_t>(seen.body);
+    std::vector<double> times;
+    for (const std::size_t i : seen.orientations) times.push_back(problem.orientations[i].time - state.time);
+    const auto ends = turned_through(state.q[o], seen.after ? state.h_after[o] : state.h[o], problem.solids[o].mass.inertia, times, jacobians);
+    for (std::size_t k = 0; k < ends.size(); ++k) turned[seen.orientations[k]] = ends[k];
+  }
   if (!jacobians) return;
   std::array<Wide, kUnknowns> u;
   for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(unknowns[i], i);
@@ -110,8 +131,8 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
   if (terms.size)
     for (const SizeTrend& seen : problem.trends) adder.add("size trend", TrendTerm{base, seen}, new ceres::HuberLoss(1.0));
   if (terms.orientation)
-    for (const OrientationObservation& seen : problem.orientations)
-      adder.add("orientation", OrientationTerm{base, seen}, new ceres::HuberLoss(kOrientationHuber));
+    for (std::size_t i = 0; i < problem.orientations.size(); ++i)
+      adder.add("orientation", OrientationTerm{base, problem.orientations[i], evaluation.turned[i]}, new ceres::HuberLoss(kOrientationHuber));
   if (!problem.orientations.empty()) adder.add("spin", SpinTerm{base});
   if (terms.gravity && problem.gravity > 0.0) adder.add("gravity", GravityTerm{base});
   if (terms.energy) adder.add("energy", EnergyTerm{base});

@@ -23,9 +23,16 @@ struct NamedBlock {
   ceres::ResidualBlockId id = nullptr;
 };
 
+/// What was seen of one body's turning on one side of the impact, from there outwards.
+struct SeenTurning {
+  int body = 0;
+  bool after = false;
+  std::vector<std::size_t> orientations;  ///< of the problem
+};
+
 /// The unknowns and the state at them, made once for all terms of an evaluation.
 struct Evaluation : ceres::EvaluationCallback {
-  Evaluation(const Problem& problem, const State& reference) : problem(problem), reference(reference) {}
+  Evaluation(const Problem& problem, const State& reference);
   void PrepareForEvaluation(bool jacobians, bool new_point) override;
 
   const Problem& problem;
@@ -33,7 +40,11 @@ struct Evaluation : ceres::EvaluationCallback {
   std::array<double, kUnknowns> unknowns = {};
   StateT<double> state;
   StateT<ceres::Jet<double, kUnknowns>> wide;  ///< with derivatives, if they were asked for
+  std::vector<TurnedEnd> turned;  ///< to where each orientation of the problem was seen
   bool has_derivatives = false;
+
+ private:
+  std::vector<SeenTurning> turnings_;
 };
 
 /// Adds all terms of the problem to a Ceres problem that has `evaluation` as its callback. `touch` is where the shapes meet at the

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <vector>
 
 #include "collision/scalar.h"
 
@@ -69,8 +69,14 @@ QuatT<T> turned(QuatT<T> q, const Vec3T<T>& h, const Eigen::Vector3d& inertia, c
   return q;
 }
 
-/// turned(), and how the end turns (a rotation vector) with the momentum.
-std::pair<Eigen::Quaterniond, Eigen::Matrix3d> turned_with_derivative(const Eigen::Quaterniond& q, const Eigen::Vector3d& h,
-                                                                      const Eigen::Vector3d& inertia, double dt);
+/// Where a torque-free body has turned to, and how that turns (a rotation vector) with the momentum.
+struct TurnedEnd {
+  Eigen::Quaterniond q;
+  Eigen::Matrix3d along_h;
+};
+
+/// turned() for several times (s); each is reached from the one before, so they had better lead away from 0. Derivatives only if asked for.
+std::vector<TurnedEnd> turned_through(const Eigen::Quaterniond& q, const Eigen::Vector3d& h, const Eigen::Vector3d& inertia,
+                                      const std::vector<double>& times, bool derivatives);
 
 }  // namespace unseen::collision

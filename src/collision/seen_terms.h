@@ -78,6 +78,7 @@ struct TrendTerm : Base {
 struct OrientationTerm : Base {
   static constexpr int kParts = 7, kResiduals = 3;
   const OrientationObservation& seen;
+  const TurnedEnd& turned;  ///< at the unknowns, with derivatives where they are asked for
   template <class T>
   std::array<const T*, kParts> parts(const StateT<T>& s) const {
     const Vec3T<T>&turn = s.turn[seen.body], &h = seen.after ? s.h_after[seen.body] : s.h[seen.body];
@@ -89,13 +90,12 @@ struct OrientationTerm : Base {
     const Vec3 h(value_of(in[3]), value_of(in[4]), value_of(in[5]));
     QuatT<T> q;
     if constexpr (std::is_same_v<T, double>) {
-      q = turned<double>(s.q[seen.body], h, inertia, seen.time - in[6]);
+      q = turned.q;
     } else {
       // Turning the start and the momentum alike turns the end alike: derivatives along the momentum are enough.
-      const auto [end, along_h] = turned_with_derivative(s.q[seen.body], h, inertia, seen.time - in[6].a);
       const Vec3T<T> turn(in[0], in[1], in[2]), step = Vec3T<T>(in[3], in[4], in[5]) - h.cast<T>() - turn.cross(h.cast<T>());
-      const Vec3T<T> theta = turn + along_h.template cast<T>() * step - angular_velocity<double>(end, h, inertia).template cast<T>() * (in[6] - in[6].a);
-      q = rotation_by<T>(theta) * end.template cast<T>();
+      const Vec3T<T> theta = turn + turned.along_h.cast<T>() * step - angular_velocity<double>(turned.q, h, inertia).cast<T>() * (in[6] - in[6].a);
+      q = rotation_by<T>(theta) * turned.q.cast<T>();
     }
     const Vec3T<T> off = rotation_vector<T>(q * seen.q.conjugate().cast<T>());
     for (int i = 0; i < 3; ++i) r[i] = off[i] / problem.orientation_sigma;

@@ -11,7 +11,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr std::size_t kMostVertices = 64;  // of a hull: contacts between rounder shapes differ by less than is ever seen
+constexpr std::size_t kMostVertices = 128;  // of a hull: contacts between rounder shapes differ by less than is ever seen
 
 std::vector<Vec3> thinned(const std::vector<Vec3>& vertices) {
   if (vertices.size() <= kMostVertices) return vertices;
@@ -28,11 +28,47 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& vertices) {
   return few;
 }
 
-void add_direction(std::vector<Vec3>& all, const Vec3& d, bool signed_) {
-  constexpr double kSame = 1.0 - 1e-8;
-  for (const Vec3& other : all)
-    if ((signed_ ? d.dot(other) : std::abs(d.dot(other))) > kSame) return;
-  all.push_back(d);
+bool same_direction(const Vec3& a, const Vec3& b) { return a.dot(b) > 1.0 - 1e-8; }
+
+/// The faces' outward normals; zero for a face without an area.
+std::vector<Vec3> face_normals(const btConvexHullComputer& computer, const std::vector<Vec3>& vertices) {
+  std::vector<Vec3> normals;
+  for (int f = 0; f < computer.faces.size(); ++f) {
+    const auto* first = &computer.edges[computer.faces[f]];
+    Vec3 normal = Vec3::Zero(), previous = Vec3::Zero();
+    const Vec3 origin = vertices[first->getSourceVertex()];
+    const auto* edge = first;
+    do {
+      const Vec3 corner = vertices[edge->getTargetVertex()] - origin;
+      normal += previous.cross(corner);
+      previous = corner;
+      edge = edge->getNextEdgeOfFace();
+    } while (edge != first);
+    if (normal.norm() < std::numeric_limits<double>::min()) {
+      normals.push_back(Vec3::Zero());
+      continue;
+    }
+    normal.normalize();
+    // outwards, whichever way the faces run
+    double low = 0.0, high = 0.0;
+    for (const Vec3& v : vertices) low = std::min(low, normal.dot(v - origin)), high = std::max(high, normal.dot(v - origin));
+    normals.push_back(high > -low ? Vec3(-normal) : normal);
+  }
+  return normals;
+}
+
+/// The face that each directed edge belongs to.
+std::vector<std::size_t> faces_of_edges(const btConvexHullComputer& computer) {
+  std::vector<std::size_t> faces(static_cast<std::size_t>(computer.edges.size()));
+  for (int f = 0; f < computer.faces.size(); ++f) {
+    const auto* first = &computer.edges[computer.faces[f]];
+    const auto* edge = first;
+    do {
+      faces[static_cast<std::size_t>(edge - &computer.edges[0])] = static_cast<std::size_t>(f);
+      edge = edge->getNextEdgeOfFace();
+    } while (edge != first);
+  }
+  return faces;
 }
 
 }  // namespace
@@ -45,24 +81,17 @@ Hull hull_of(const std::vector<Vec3>& points) {
   computer.compute(flat.data(), 3 * sizeof(double), static_cast<int>(points.size()), 0.0, 0.0);
   for (int i = 0; i < computer.vertices.size(); ++i)
     hull.vertices.push_back({computer.vertices[i].x(), computer.vertices[i].y(), computer.vertices[i].z()});
-  for (int f = 0; f < computer.faces.size(); ++f) {
-    const auto* first = &computer.edges[computer.faces[f]];
-    Vec3 normal = Vec3::Zero(), previous = Vec3::Zero();
-    const Vec3 origin = hull.vertices[first->getSourceVertex()];
-    const auto* edge = first;
-    do {
-      const Vec3 corner = hull.vertices[edge->getTargetVertex()] - origin;
-      normal += previous.cross(corner);
-      previous = corner;
-      add_direction(hull.edges, (hull.vertices[edge->getTargetVertex()] - hull.vertices[edge->getSourceVertex()]).normalized(), false);
-      edge = edge->getNextEdgeOfFace();
-    } while (edge != first);
-    if (normal.norm() < std::numeric_limits<double>::min()) continue;
-    normal.normalize();
-    // outwards, whichever way the faces run
-    double low = 0.0, high = 0.0;
-    for (const Vec3& v : hull.vertices) low = std::min(low, normal.dot(v - origin)), high = std::max(high, normal.dot(v - origin));
-    add_direction(hull.normals, high > -low ? Vec3(-normal) : normal, true);
+  const std::vector<Vec3> normals = face_normals(computer, hull.vertices);
+  for (const Vec3& n : normals)
+    if (!n.isZero() && std::none_of(hull.normals.begin(), hull.normals.end(), [&](const Vec3& m) { return same_direction(m, n); })) hull.normals.push_back(n);
+  const std::vector<std::size_t> faces = faces_of_edges(computer);
+  for (int e = 0; e < computer.edges.size(); ++e) {
+    const auto &edge = computer.edges[e], &back = *edge.getReverseEdge();
+    if (edge.getSourceVertex() > edge.getTargetVertex()) continue;  // each once
+    const Vec3 &left = normals[faces[static_cast<std::size_t>(e)]], &right = normals[faces[static_cast<std::size_t>(&back - &computer.edges[0])]];
+    if (left.isZero() || right.isZero() || same_direction(left, right)) continue;
+    const Vec3 &from = hull.vertices[edge.getSourceVertex()], along = (hull.vertices[edge.getTargetVertex()] - from).normalized();
+    hull.edges.push_back({from, along.dot(left.cross(right)) > 0.0 ? along : Vec3(-along), left, right});
   }
   return hull;
 }

@@ -17,18 +17,19 @@ constexpr int kMostTurns = 3;      // between two orientations
 /// Gauss–Newton over orientation and momentum at the first observation's time.
 SpinGuess refined(const std::vector<const OrientationObservation*>& seen, const Vec3& inertia, double sigma, SpinGuess guess) {
   constexpr int kRounds = 12;
+  std::vector<double> times;
+  for (const OrientationObservation* o : seen) times.push_back(o->time - seen[0]->time);
   const auto residuals = [&](const SpinGuess& g) {
     Eigen::VectorXd r(3 * seen.size());
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      const Quat there = turned<double>(g.q, g.h, inertia, seen[i]->time - seen[0]->time);
-      r.segment<3>(3 * i) = rotation_vector<double>(there * seen[i]->q.conjugate()) / sigma;
-    }
+    const std::vector<TurnedEnd> ends = turned_through(g.q, g.h, inertia, times, false);
+    for (std::size_t i = 0; i < seen.size(); ++i) r.segment<3>(3 * i) = rotation_vector<double>(ends[i].q * seen[i]->q.conjugate()) / sigma;
     return r;
   };
   const auto jacobian = [&](const SpinGuess& g) {
     Eigen::MatrixXd j(3 * seen.size(), 6);
+    const std::vector<TurnedEnd> ends = turned_through(g.q, g.h, inertia, times, true);
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      const Mat3 along = turned_with_derivative(g.q, g.h, inertia, seen[i]->time - seen[0]->time).second;
+      const Mat3& along = ends[i].along_h;
       Mat3 cross;
       cross << 0, -g.h.z(), g.h.y(), g.h.z(), 0, -g.h.x(), -g.h.y(), g.h.x(), 0;
       j.block<3, 3>(3 * i, 0) = (Mat3::Identity() + along * cross) / sigma;  // turning the start alone

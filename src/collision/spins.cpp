@@ -53,7 +53,7 @@ void search(SpinFlight& flight, const SpinBody& body, const std::vector<SurfaceP
 
 /// Standard deviation of the motion's orientation at a time, rad.
 double uncertainty(const Turning& turning, const SpinBody& body, double noise, double time) {
-  const auto along = turned_with_derivative(turning.q, turning.h, body.solid.mass.inertia, time - turning.time).second;
+  const auto along = turned_through(turning.q, turning.h, body.solid.mass.inertia, {time - turning.time}, true).front().along_h;
   Eigen::Matrix<double, 3, 6> change;
   change << Mat3::Identity(), along;
   Eigen::Matrix<double, 6, 6> information = turning.information;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "collision/stage_world.h"
+#include "collision/touching.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -24,17 +26,6 @@ StageState state_at(const Cast& cast, const StageRun& run, int actor, double tim
     if (f.time <= time) last = &f;
   const BodyState& s = last->bodies[static_cast<std::size_t>(actor)];
   return flown(a, {last->time, s.p, s.v, s.k / a.actor.mass, s.q * a.solid.file_to_principal.conjugate()}, cast.gravity, time);
-}
-
-/// How far along `direction` the second body's centre lies from the first's when they touch.
-double touching_distance(const CastActor& a, const Quat& q_a, const CastActor& b, const Quat& q_b, const Vec3& direction) {
-  double low = 0.0, high = a.solid.mass.reach + b.solid.mass.reach;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    const auto near = nearest(a.solid, Vec3::Zero(), q_a, b.solid, middle * direction, q_b, 1e-6);
-    (near && near->gap > 0 ? high : low) = middle;
-  }
-  return high;
 }
 
 class Arrangement {
@@ -98,8 +89,13 @@ class Arrangement {
       return false;
     }
     const Vec3 direction = relative.normalized();
-    const double distance = touching_distance(cast_.actors[static_cast<std::size_t>(who[0])], a.q, cast_.actors[static_cast<std::size_t>(who[1])], b.q, direction);
-    place(cast_, plan_, moved, aside + a.p + distance * direction - b.p, turn);
+    const Solid &first = cast_.actors[static_cast<std::size_t>(who[0])].solid, &second = cast_.actors[static_cast<std::size_t>(who[1])].solid;
+    const std::optional<Touching> touching = Touchings(first, a.q, second, b.q).along(-direction);
+    if (!touching) {
+      obstacle = "the bodies cannot touch so";
+      return false;
+    }
+    place(cast_, plan_, moved, aside + a.p - touching->offset - b.p, turn);
     const auto failures = missed(cast_, simulate(cast_, plan_.fps, std::min(plan_.duration, time + kFramesAfter / plan_.fps), context_).impacts, 1.0 / plan_.fps, time);
     if (failures.empty()) return true;
     obstacle = failures.front();

@@ -7,7 +7,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kStep = 1e-3;          // s, between looks at contacts
+constexpr double kTimeStep = 1e-3;          // s, between looks at contacts
 constexpr double kTouching = 1e-8;      // m, of overlap that is rounding
 constexpr double kLeastBounce = 0.5;    // m/s: a bounce below ends the shot, for the body comes to rest
 constexpr int kFloor = -1;
@@ -27,9 +27,9 @@ class Run {
     time_ = plan_.time;
     for (int frame = static_cast<int>(std::ceil(plan_.time * fps_)) - 1; frame >= 0; --frame) {
       while (time_ > frame / fps_) {
-        const double dt = std::max(-kStep, frame / fps_ - time_);
+        const double dt = std::max(-kTimeStep, frame / fps_ - time_);
         states_ = flown(dt);
-        time_ = dt == -kStep ? time_ - kStep : frame / fps_;
+        time_ = dt == -kTimeStep ? time_ - kTimeStep : frame / fps_;
         if (nearest(states_).gap < -kTouching) return false;
       }
       record(frame, truth);
@@ -73,12 +73,12 @@ class Run {
 
   /// To the frame's time, or one step towards it, or to the contact before and through it.
   bool step(double until, Truth& truth) {
-    const double dt = std::min(kStep, until - time_);
+    const double dt = std::min(kTimeStep, until - time_);
     const std::vector<SynthState> next = flown(dt);
     const Meeting meeting = nearest(next);
     if (meeting.gap >= -kTouching) {
       states_ = next;
-      time_ = dt < kStep ? until : time_ + dt;
+      time_ = dt < kTimeStep ? until : time_ + dt;
       return true;
     }
     ended_ = plan_.once && !truth.impacts.empty();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "collision/contact.h"
 
@@ -15,7 +16,22 @@ struct Touching {
   Vec3 normal;        ///< unit, from b to a
 };
 
-/// The way to touch with the centres' offset along `direction`; nothing if none is found.
-std::optional<Touching> touch_along(const Solid& a, const Quat& q_a, const Solid& b, const Quat& q_b, const Vec3& direction);
+/// All ways in which two solids, turned as they are, can touch. Keeps references to both.
+class Touchings {
+ public:
+  Touchings(const Solid& a, const Quat& q_a, const Solid& b, const Quat& q_b);
+
+  /// With the centres' offset along a unit direction; nothing if none is found.
+  std::optional<Touching> along(const Vec3& direction) const;
+
+ private:
+  std::optional<Proximity> of_polytopes(const Vec3& direction, double& distance) const;
+  std::optional<Proximity> with_a_sphere(const Vec3& direction, double& distance) const;
+
+  const Solid &a_, &b_;
+  Quat q_a_, q_b_;
+  double tolerance_;
+  std::vector<MinkowskiFace> faces_;  ///< empty if one is a sphere
+};
 
 }  // namespace unseen::collision

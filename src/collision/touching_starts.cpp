@@ -45,9 +45,11 @@ class TouchingStarts {
   TouchingStarts(const Problem& problem, const State& base, const std::array<LinearFlight, 2>& flights)
       : problem_(problem), fit_(problem, base, flights[0], flights[1]) {}
 
-  std::optional<Ranked> at(const TurningPair& pair, const Vec3& direction) const {
+  Touchings touchings(const TurningPair& pair) const { return {problem_.solids[0], pair.a.q, problem_.solids[1], pair.b.q}; }
+
+  std::optional<Ranked> at(const TurningPair& pair, const Touchings& touchings, const Vec3& direction) const {
     constexpr double kBeyond = 0.1;  // restitution outside [0,1]
-    const std::optional<Touching> touching = touch_along(problem_.solids[0], pair.a.q, problem_.solids[1], pair.b.q, direction);
+    const std::optional<Touching> touching = touchings.along(direction);
     if (!touching) return std::nullopt;
     auto [cost, s] = fit_(*touching, pair.a.turn(), pair.b.turn());
     s.q = {pair.a.q, pair.b.q};
@@ -60,14 +62,14 @@ class TouchingStarts {
   }
 
   /// From there to the best direction nearby.
-  Ranked refined(const TurningPair& pair, Ranked best) const {
+  Ranked refined(const TurningPair& pair, const Touchings& touchings, Ranked best) const {
     constexpr int kRounds = 16;
     double step = 0.08;  // rad
     for (int round = 0; round < kRounds; ++round) {
       const Vec3 direction = (best.state.p[0] - best.state.p[1]).normalized(), e1 = any_orthogonal(direction), e2 = direction.cross(e1);
       bool better = false;
       for (const Vec3& side : {e1, e2, Vec3(-e1), Vec3(-e2)}) {
-        const std::optional<Ranked> next = at(pair, (direction + step * side).normalized());
+        const std::optional<Ranked> next = at(pair, touchings, (direction + step * side).normalized());
         if (next && next->cost < best.cost) best = *next, better = true;
       }
       if (!better) step *= 0.5;
@@ -91,10 +93,11 @@ std::vector<Ranked> touching_starts(const Problem& problem, const State& base, c
   std::vector<Ranked> all;
   for (const TurningPair& pair : turning_pairs(problem, base, shakes)) {
     std::vector<Ranked> some;
+    const Touchings touchings = starts.touchings(pair);
     for (const Vec3& direction : directions)
-      if (std::optional<Ranked> start = starts.at(pair, direction)) some.push_back(std::move(*start));
+      if (std::optional<Ranked> start = starts.at(pair, touchings, direction)) some.push_back(std::move(*start));
     std::stable_sort(some.begin(), some.end(), [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
-    for (std::size_t i = 0; i < std::min(some.size(), kRefined); ++i) all.push_back(starts.refined(pair, some[i]));
+    for (std::size_t i = 0; i < std::min(some.size(), kRefined); ++i) all.push_back(starts.refined(pair, touchings, some[i]));
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

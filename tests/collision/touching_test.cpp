@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "collision/flight_search.h"
+#include "collision/penetration.h"
 #include "collision/rotation.h"
 #include "collision/touching.h"
 #include "collision/touching_fit.h"
@@ -44,13 +46,60 @@ TEST(Touching, IsWhereOverlapBegins) {
     const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
     const Quat q_a = rotation_by<double>(any()), q_b = rotation_by<double>(any());
     const Vec3 u = any().normalized();
-    const std::optional<Touching> t = touch_along(a, q_a, b, q_b, u);
+    const std::optional<Touching> t = Touchings(a, q_a, b, q_b).along(u);
     ASSERT_TRUE(t);
     EXPECT_LT(t->offset.normalized().cross(u).norm(), 1e-9);
     // the boxes in their own axes
     const Quat box_a = q_a * a.file_to_principal, box_b = q_b * b.file_to_principal;
     EXPECT_FALSE(overlap(size_a, 1.002 * t->offset, box_a, size_b, box_b)) << i;
     EXPECT_TRUE(overlap(size_a, 0.9 * t->offset, box_a, size_b, box_b)) << i;
+  }
+}
+
+/// A pebble: an octahedron whose faces are cut in four `rounds` times, blown up, stretched and dented a little.
+Body pebble(const Vec3& size, int rounds, Random& random) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 3; ++i)
+    for (const double sign : {1.0, -1.0}) mesh.vertices.push_back(sign * Vec3::Unit(i));
+  mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (int round = 0; round < rounds; ++round) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> between;
+    const auto middle = [&](std::uint32_t i, std::uint32_t j) {
+      const auto [at, fresh] = between.try_emplace(std::minmax(i, j), static_cast<std::uint32_t>(mesh.vertices.size()));
+      if (fresh) mesh.vertices.push_back((mesh.vertices[i] + mesh.vertices[j]).normalized());
+      return at->second;
+    };
+    std::vector<std::array<std::uint32_t, 3>> finer;
+    for (const auto& [i, j, k] : mesh.triangles) {
+      const std::uint32_t a = middle(i, j), b = middle(j, k), c = middle(k, i);
+      for (const auto& t : {std::array{i, a, c}, {a, j, b}, {c, b, k}, {a, b, c}}) finer.push_back(t);
+    }
+    mesh.triangles = finer;
+  }
+  for (Vec3& v : mesh.vertices) v = random.uniform(0.97, 1.0) * 0.5 * v.cwiseProduct(size);
+  Body b;
+  b.name = "pebble";
+  b.shape = Shape::mesh;
+  b.mesh = mesh;
+  return b;
+}
+
+/// Against Bullet's distance of convex bodies (GJK), which knows nothing of faces.
+TEST(Touching, OfRoundMeshesIsWhereBulletHasNoGap) {
+  Random random(4);
+  const Body a = pebble(Vec3(0.2, 0.12, 0.1), 2, random), b = pebble(Vec3(0.1, 0.15, 0.12), 1, random), c = box(Vec3(0.1, 0.05, 0.2));
+  const std::array<std::pair<const Body*, const Body*>, 3> pairs = {{{&a, &b}, {&a, &c}, {&c, &b}}};
+  for (int i = 0; i < 30; ++i) {
+    const auto& [first, second] = pairs[static_cast<std::size_t>(i % 3)];
+    const Solid one = solid_of(*first, ""), two = solid_of(*second, "");
+    const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
+    const Quat q_a = rotation_by<double>(any()), q_b = rotation_by<double>(any());
+    const std::optional<Touching> t = Touchings(one, q_a, two, q_b).along(any().normalized());
+    ASSERT_TRUE(t);
+    const auto pose = [](const Solid& solid, const Quat& q, const Vec3& p) {
+      return RigidTransform{(q * solid.file_to_principal).toRotationMatrix(), p};
+    };
+    EXPECT_LT(std::abs(penetration(*first, pose(one, q_a, t->offset), *second, pose(two, q_b, Vec3::Zero()))), 1e-3 * t->offset.norm()) << i;
   }
 }
 
