@@ -80,6 +80,7 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
       c.diameter = disc ? disc->diameter : spheres ? r.diameter : 2.0 * std::sqrt(r.area / kPi);
       if (spheres) c.pixel = projected_center(c.pixel, c.diameter, camera.camera);
       c.area = disc ? 0.25 * kPi * disc->diameter * disc->diameter : r.area;
+      if (spheres && !disc) c.round = std::min(1.0, r.diameter / r.circle);
       c.color = r.color;
       c.colored = true;
       c.whole = !r.at_border && (!r.covered || disc);

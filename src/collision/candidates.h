@@ -15,6 +15,7 @@ struct Candidate {
   Vec2 pixel = Vec2::Zero();
   double diameter = 0;   ///< px; 0 = unknown
   double area = 0;       ///< px²; 0 = unknown
+  double round = 1;      ///< of what should be a disc: its least extent over the diameter of the bounding circle
   Vec3 color = Vec3::Zero();
   bool colored = false;  ///< `color` means something
   bool whole = true;     ///< not cut by the picture's edge

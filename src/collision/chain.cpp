@@ -39,14 +39,15 @@ double extent(const Arc& arc) {
 /// Mean looks of an arc.
 Candidate looks_of(const Arc& arc) {
   Candidate mean = arc.points[arc.points.size() / 2];
-  Vec3 color = Vec3::Zero();
-  for (const Candidate& c : arc.points) color += c.color / static_cast<double>(arc.points.size());
-  mean.color = color;
+  const auto count = static_cast<double>(arc.points.size());
+  mean.color = Vec3::Zero();
+  mean.round = 0.0;
+  for (const Candidate& c : arc.points) mean.color += c.color / count, mean.round += c.round / count;
   mean.diameter = typical_diameter(arc.points);
   return mean;
 }
 
-/// The arcs of the thing that flies most.
+/// The arcs of the thing that flies most; the less a ball looks like a disc, as its shadow does, the less they are worth.
 std::vector<Arc> arcs_of_body(const std::vector<Arc>& arcs, double noise) {
   std::vector<Arc> moving;
   std::vector<Candidate> looks;
@@ -57,7 +58,7 @@ std::vector<Arc> arcs_of_body(const std::vector<Arc>& arcs, double noise) {
     if (far < std::max(kMoves * look.diameter, kMovesNoise * noise)) continue;
     moving.push_back(arc);
     looks.push_back(look);
-    worth.push_back((static_cast<double>(arc.points.size()) - 3.0) * std::min(1.0, far / std::max(1.0, 3.0 * look.diameter)));
+    worth.push_back(look.round * (static_cast<double>(arc.points.size()) - 3.0) * std::min(1.0, far / std::max(1.0, 3.0 * look.diameter)));
   }
   double most = 0.0;
   std::vector<Arc> best;

@@ -20,6 +20,8 @@ constexpr int kBright = 200;                   // grey levels or brighter: there
 constexpr double kSide = 0.5;                  // of the rest: more is no side of it
 constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
 constexpr double kWhole = 0.85;                 // share of a part that makes it a shadow
+constexpr double kRound = 0.88;                // share of its bounding circle: a part like that is a ball with its shaded side, if
+constexpr double kLitSide = 0.35;              // of it is no shadow
 constexpr double kColored = 4.0;               // grey levels off a neutral tone: less is no colour to go by
 constexpr int kWindow = 9;                     // px, of the light that texture is seen against
 constexpr int kFewestPixels = 60;                    // px that tell of texture
@@ -141,6 +143,18 @@ void keep_shaded_sides(const cv::Mat& frame, const cv::Mat& mask, const std::vec
   }
 }
 
+/// Whether a part is a disc of which enough is lit: with a shadow beside the body it would be none.
+bool is_lit_ball(const cv::Mat& mask, const cv::Mat& shadow) {
+  const int area = cv::countNonZero(mask);
+  if (cv::countNonZero(mask & ~shadow) < kLitSide * area) return false;
+  std::vector<cv::Point> points;
+  cv::Point2f center;
+  float radius = 0.0F;
+  cv::findNonZero(mask, points);
+  cv::minEnclosingCircle(points, center, radius);
+  return area > kRound * kPi * (radius + 0.5) * (radius + 0.5);
+}
+
 /// What tells most of the pieces.
 ShadowSign most_of(const std::vector<Piece>& pieces) {
   std::array<int, 3> areas{};
@@ -191,7 +205,8 @@ Shade find_shade(const cv::Mat& frame, const Background& background, const cv::M
   const std::vector<Piece> pieces = pieces_of(frame, background.picture, shade.mask);
   shade.sign = most_of(pieces);
   shade.whole = cv::countNonZero(shade.mask) > kWhole * cv::countNonZero(mask);
-  if (!shade.whole) keep_shaded_sides(frame, mask, pieces, shade.mask);
+  if (!shade.whole && is_lit_ball(mask, shade.mask)) shade.mask.setTo(0);
+  else if (!shade.whole) keep_shaded_sides(frame, mask, pieces, shade.mask);
   return shade;
 }
 
