@@ -40,12 +40,28 @@ std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& 
   return group;
 }
 
+/// Covariance (rad²) of each frame's turn, as far as its patches tell; of correlated noise no patch averages much away.
+std::vector<Mat3> turn_covariances(const std::vector<Patch>& patches, const std::vector<Vec3>& normals, const std::vector<int>& frame, std::size_t frames) {
+  constexpr double kLoose = 0.1, kLeastTilt = 1e-5;  // rad: what no patch tells; no patch tells more
+  std::vector<Mat3> information(frames, Mat3::Identity() / (kLoose * kLoose));
+  for (std::size_t j = 0; j < patches.size(); ++j) {
+    const Patch& p = patches[j];
+    if (p.cells.empty()) continue;
+    const auto noise = [&](double doubt, double systematic) { return doubt - systematic + kLeastTilt * kLeastTilt; };
+    for (const TiltResidual& r : tilt_residuals(p.fit, normals[j], noise(p.doubt_u, p.systematic_u), noise(p.doubt_v, p.systematic_v)))
+      if (std::isfinite(r.weight)) information[frame[j]] += r.weight * r.jacobian * r.jacobian.transpose();
+  }
+  for (Mat3& m : information) m = m.inverse().eval();
+  return information;
+}
+
 /// Gives parts of one direction whose offsets do not differ significantly one surface, the largest part first.
 void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, const Space& space, double least_noise,
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
                     Model& model, const Context& context) {
   const double scale = 2.0 * grid.edge;
-  constexpr double kTilt = 0.05 * kPi / 180.0;  // rad, how precisely a common direction is known
+  constexpr double kMostPoints = 60;  // independent ones of a part: noise is correlated
+  constexpr double kExact = 0.003;    // of the scale: what differs by less is the same
   struct Sum {
     Moments moments;
     double variance;  // m², of the offset
@@ -57,17 +73,20 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
     for (std::size_t j = begin; j < end; ++j)
       if (!cells[j].empty()) patches[j] = make_patch(grid, space, std::move(cells[j]), least_noise);
   });
+  const std::vector<Mat3> turns = turn_covariances(patches, normals, frame, model.frames.size());
   std::vector<Sum> sums;
   for (std::size_t j = 0; j < cells.size(); ++j) {
     const Patch& patch = patches[j];
     if (patch.cells.empty()) continue;
-    const double variance = std::pow(0.03 * scale, 2) + std::pow(patch.fit.rms, 2) / patch.moments.count;
+    const double variance = std::pow(kExact * scale, 2) + std::pow(patch.fit.rms, 2) / std::min(kMostPoints, patch.moments.count);
     int to = -1;
-    for (std::size_t s = 0; s < sums.size() && to < 0; ++s) {
+    double nearest = 0.5 * scale;
+    for (std::size_t s = 0; s < sums.size(); ++s) {
       if (line_angle(sums[s].normal, normals[j]) > 1e-7) continue;
-      const Vec3 apart = patch.moments.mean - sums[s].moments.mean;
-      const double limit = 3.0 * std::sqrt(variance + sums[s].variance + std::pow(kTilt * apart.norm(), 2));
-      if (std::abs(normals[j].dot(apart)) < std::min(0.5 * scale, limit)) to = static_cast<int>(s);
+      const Vec3 apart = patch.moments.mean - sums[s].moments.mean, lever = normals[j].cross(apart);
+      const double limit = 3.0 * std::sqrt(variance + sums[s].variance + lever.dot(turns[frame[j]] * lever));
+      const double offset = std::abs(normals[j].dot(apart));
+      if (offset < std::min(nearest, limit)) to = static_cast<int>(s), nearest = offset;
     }
     if (to < 0) {
       to = static_cast<int>(sums.size());

@@ -15,7 +15,9 @@ constexpr double kFarthest = 1.5 * kPi / 180.0;  // rad: a refit that turns a fr
 constexpr double kEnough = 0.5;  // share of a support's points that may stand for it
 constexpr double kLoose = 3.0 * kPi / 180.0;  // rad: damping of a step
 constexpr double kRedundant = 1e-11;  // share of a relation's own gradient that others do not explain
-constexpr double kFloor = 0.03 * kPi / 180.0;  // rad: no surface is known better than this
+constexpr double kFloor = 0.01 * kPi / 180.0;  // rad: no surface is known better than this
+constexpr double kMostPoints = 60;  // independent ones of a surface: noise is correlated
+constexpr double kOdd = 2.0;        // standard deviations: tilts beyond it count less (Huber 1964)
 
 }  // namespace
 
@@ -54,10 +56,15 @@ Turns turns_of(const Model& model) {
           std::vector<Vec3>(model.frames.size(), Vec3::Zero())};
   for (const Surface& surface : model.surfaces) {
     const Patch& s = surface.support;
-    for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), s.variance_u + kFloor * kFloor,
-                                                s.variance_v + kFloor * kFloor)) {
-      t.information[surface.frame] += r.weight * r.jacobian * r.jacobian.transpose();
-      t.gradient[surface.frame] += r.weight * r.value * r.jacobian;
+    const auto variance = [&](double variance, double spread) {
+      const double correlated = s.fit.rms * s.fit.rms / (std::min(kMostPoints, s.moments.count) * std::max(spread * spread, 1e-300));
+      return std::max(variance, correlated) + kFloor * kFloor;
+    };
+    for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), variance(s.variance_u, s.fit.spread_u),
+                                                s.variance_v > 0.0 ? variance(s.variance_v, s.fit.spread_v) : kFloor * kFloor)) {
+      const double weight = r.weight / std::max(1.0, std::abs(r.value) * std::sqrt(r.weight) / kOdd);
+      t.information[surface.frame] += weight * r.jacobian * r.jacobian.transpose();
+      t.gradient[surface.frame] += weight * r.value * r.jacobian;
     }
   }
   return t;

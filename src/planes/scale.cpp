@@ -16,12 +16,16 @@ namespace {
 constexpr std::size_t kProbes = 2000, kNormalProbes = 128;  // for the scale; for whether normals are usable
 constexpr double kSparsest = 3.0, kFar = 2.0;               // times the typical spacing
 constexpr std::size_t kFewest = 32, kMost = 128;            // neighbours of a probe
+constexpr std::size_t kSurrounding = 6;                     // neighbours at least that tell the spacing
+constexpr double kThread = 0.2;                             // spread across over spread along: less is one line of a scan
+constexpr std::size_t kFewestOfLine = 8;                    // neighbours that tell the noise of a drawing
 constexpr double kFlat = 0.5;                               // rms over spread of a disc
 constexpr double kThick = 0.3;                              // rms over spacing that is no surface
 
 struct Probe {
-  double sixth = 0;       ///< m, distance to the sixth neighbour
-  PlaneFit fit;           ///< of the nearest 32, or more where these are no flat disc
+  double spacing = 0;     ///< m, to the sixth neighbour, or as far as those reach that lie in more than one line
+  PlaneFit fit;           ///< of the nearest 32 (2D: 8), or more where these are no flat disc
+  bool surrounded = true; ///< false: even the last neighbour lies in one line with the others
   std::size_t index = 0;  ///< in the sample
 };
 
@@ -29,18 +33,34 @@ bool is_flat(const PlaneFit& fit, const Space& space) {
   return fit.rms < kFlat * (space.is_2d() ? fit.spread_u : fit.spread_v);
 }
 
-/// Where noise exceeds the spacing, the nearest points show no more of it than they are far.
-Probe probe(const Neighbourhood& n, std::size_t index, const Space& space) {
-  Probe p{(n[std::min<std::size_t>(6, n.size() - 1)] - n[0]).norm(), {}, index};
+/// The first of the neighbours' numbers `first`, `times` as many, … whose fit `suits`, or all of them; the fit comes with it.
+template <class Suits>
+std::size_t grow(const Neighbourhood& n, std::size_t first, std::size_t times, const Space& space, PlaneFit& fit, Suits suits) {
   Moments m;
-  std::size_t next = kFewest;
+  std::size_t next = first;
   for (std::size_t i = 0; i < n.size(); ++i) {
     m += Moments{1.0, n[i], Mat3::Zero()};
     if (i + 1 < std::min(next, n.size())) continue;
-    p.fit = fit_plane(m, space);
-    if (is_flat(p.fit, space)) break;
-    next *= 4;
+    fit = fit_plane(m, space);
+    if (suits(fit)) return i;
+    next *= times;
   }
+  return n.size() - 1;
+}
+
+/// Where noise exceeds the spacing, the nearest points show no more of it than they are far; where a scan's lines are farther apart than its
+/// points in them, the nearest points show one line.
+Probe probe(const Neighbourhood& n, std::size_t index, const Space& space) {
+  Probe p;
+  p.index = index;
+  PlaneFit near;
+  const std::size_t last = space.is_2d() ? std::min(kSurrounding, n.size() - 1)
+                                         : grow(n, kSurrounding + 1, 2, space, near, [](const PlaneFit& f) { return f.spread_v > kThread * f.spread_u; });
+  p.surrounded = space.is_2d() || near.spread_v > kThread * near.spread_u;
+  p.spacing = (n[last] - n[0]).norm();
+  const auto flat = [&](const PlaneFit& f) { return is_flat(f, space); };
+  if (space.is_2d()) grow(n, kFewestOfLine, 2, space, p.fit, flat);
+  else grow(n, kFewest, 4, space, p.fit, flat);
   return p;
 }
 
@@ -52,7 +72,7 @@ std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::s
   parallel_blocks(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       probes[i] = probe(tree.around(i, kFewest), i, space);
-      if (most > kFewest && !is_flat(probes[i].fit, space)) probes[i] = probe(tree.around(i, most), i, space);
+      if (most > kFewest && !(is_flat(probes[i].fit, space) && probes[i].surrounded)) probes[i] = probe(tree.around(i, most), i, space);
     }
   });
   return probes;
@@ -79,13 +99,13 @@ std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const
 template <class F>
 double median(const std::vector<Probe>& probes, const Space& space, F value) {
   std::vector<double> spacing;
-  for (const Probe& p : probes) spacing.push_back(p.sixth);
+  for (const Probe& p : probes) spacing.push_back(p.spacing);
   const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
   std::nth_element(spacing.begin(), middle, spacing.end());
   std::vector<std::pair<double, double>> weighted;
   for (const Probe& p : probes) {
-    const bool stray = p.sixth > kFar * *middle && p.fit.rms > kThick * p.sixth;
-    const double side = stray ? 0.0 : std::min(p.sixth, kSparsest * *middle);
+    const bool stray = p.spacing > kFar * *middle && p.fit.rms > kThick * p.spacing;
+    const double side = stray ? 0.0 : std::min(p.spacing, kSparsest * *middle);
     weighted.emplace_back(value(p), space.is_2d() ? side : side * side);
   }
   return weighted_quantile(std::move(weighted), 0.5);
@@ -105,7 +125,7 @@ double choose_scale(PointSource& source, const Survey& survey, const Space& spac
     const std::vector<Probe> probes = survey.share < 1.0
                                           ? probe_source(source, survey, space, kProbes, kMost, context)
                                           : probe_sample(survey, space, kProbes, kMost, context);
-    const double spacing = median(probes, space, [](const Probe& p) { return p.sixth; });
+    const double spacing = median(probes, space, [](const Probe& p) { return p.spacing; });
     const double noise = median(probes, space, [](const Probe& p) { return p.fit.rms; });
     scale = std::clamp(std::max(1.25 * spacing, 4.0 * noise), 1e-4 * extent, 0.1 * extent);
   }
