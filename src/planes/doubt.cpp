@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "planes/weighted.h"
 
@@ -16,8 +15,6 @@ constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that 
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kMuchLess = 0.6, kLeast = 0.1;  // of the doubt at first: when to look again, and what is left at least
 constexpr int kAgain = 3;  // what was in the largest frame by chance leaves it, and then more of the doubt goes
-constexpr double kOdd = 4;         // times the median tilt: not a member by its looks
-constexpr int kRounds = 3;
 constexpr double kRough = 2;       // times the typical noise: two sides of a wall, or more than one thing
 constexpr double kFewPoints = 15;  // of these, clutter at a rim is a part that large walls do not show
 
@@ -39,23 +36,6 @@ void reduce_doubt(Patches& patches, double from, double to) {
   }
 }
 
-using Members = std::vector<std::pair<const Patch*, int>>;  // of a frame, with their local directions
-
-/// The members but for those whose tilts are odd among them: what stands askew would turn the frame it was taken into.
-Members without_odd(const OrientationFrame& frame, const std::vector<Vec3>& locals, const Members& members) {
-  Members kept = members;
-  for (int round = 0; round < kRounds; ++round) {
-    const OrientationFrame fitted = refit_frame(frame, locals, kept);
-    const auto tilt = [&](const std::pair<const Patch*, int>& m) { return line_angle(m.first->fit.normal, fitted.direction(locals[m.second])); };
-    std::vector<std::pair<double, double>> tilts;
-    for (const auto& m : members) tilts.emplace_back(tilt(m), m.first->area);
-    const double limit = kOdd * weighted_quantile(std::move(tilts), 0.5);
-    kept.clear();
-    std::copy_if(members.begin(), members.end(), std::back_inserter(kept), [&](const auto& m) { return tilt(m) <= limit; });
-  }
-  return kept;
-}
-
 }  // namespace
 
 double shown_doubt(const Patches& patches, const Selection& s, const std::vector<Vec3>& locals) {
@@ -63,10 +43,10 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
   std::vector<double> area(s.frames.size(), 0.0);
   for (std::size_t j = 0; j < patches.patches.size(); ++j) area[s.frame_of_patch[j]] += patches.patches[j].area;
   const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
-  Members members;
+  std::vector<std::pair<const Patch*, int>> members;
   for (std::size_t j = 0; j < patches.patches.size(); ++j)
     if (s.frame_of_patch[j] == largest) members.emplace_back(&patches.patches[j], s.local_of_patch[j]);
-  const OrientationFrame frame = refit_frame(s.frames[largest], locals, without_odd(s.frames[largest], locals, members));
+  const OrientationFrame frame = refit_frame(s.frames[largest], locals, members);
   std::vector<std::pair<double, double>> squares;  // of tilts, over the systematic doubt; the patch's area
   for (const auto& [patch, local] : members) {
     const Vec3 n = frame.direction(locals[local]);

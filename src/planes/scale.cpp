@@ -18,7 +18,8 @@ constexpr double kSparsest = 3.0, kFar = 2.0;               // times the typical
 constexpr std::size_t kFewest = 32, kMost = 128;            // neighbours of a probe
 constexpr std::size_t kSurrounding = 6;                     // neighbours at least that tell the spacing
 constexpr double kThread = 0.2;                             // spread across over spread along: less is one line of a scan
-constexpr std::size_t kFewestOfLine = 8;                    // neighbours that tell the noise of a drawing
+constexpr std::size_t kFewestOfLine = 8;                    // neighbours that tell the noise of a drawing, if their
+constexpr double kThin = 0.25;                              // rms over spread is below this; a wall's other side is near
 constexpr double kFlat = 0.5;                               // rms over spread of a disc
 constexpr double kThick = 0.3;                              // rms over spacing that is no surface
 
@@ -59,8 +60,9 @@ Probe probe(const Neighbourhood& n, std::size_t index, const Space& space) {
   p.surrounded = space.is_2d() || near.spread_v > kThread * near.spread_u;
   p.spacing = (n[last] - n[0]).norm();
   const auto flat = [&](const PlaneFit& f) { return is_flat(f, space); };
-  if (space.is_2d()) grow(n, kFewestOfLine, 2, space, p.fit, flat);
-  else grow(n, kFewest, 4, space, p.fit, flat);
+  const auto thin = [](const PlaneFit& f) { return f.rms < kThin * f.spread_u; };
+  const bool is_line = space.is_2d() && grow(n, kFewestOfLine, 2, space, p.fit, thin) < kFewest - 1;
+  if (!is_line) grow(n, kFewest, 4, space, p.fit, flat);
   return p;
 }
 
