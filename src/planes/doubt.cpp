@@ -11,6 +11,8 @@ namespace unseen::planes {
 namespace {
 
 constexpr std::size_t kEnough = 12;      // tilts
+constexpr std::size_t kFewestMembers = 4;  // of a frame that tells
+constexpr double kTurns = 3;             // of a frame, which its members' tilts pay for
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kMuchLess = 0.6, kLeast = 0.1;  // of the doubt at first: when to look again, and what is left at least
@@ -39,24 +41,24 @@ void reduce_doubt(Patches& patches, double from, double to) {
 }  // namespace
 
 double shown_doubt(const Patches& patches, const Selection& s, const std::vector<Vec3>& locals) {
-  if (s.frames.empty()) return 1.0;
-  std::vector<double> area(s.frames.size(), 0.0);
-  for (std::size_t j = 0; j < patches.patches.size(); ++j) area[s.frame_of_patch[j]] += patches.patches[j].area;
-  const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
-  std::vector<std::pair<const Patch*, int>> members;
+  std::vector<std::vector<std::pair<const Patch*, int>>> members(s.frames.size());
   for (std::size_t j = 0; j < patches.patches.size(); ++j)
-    if (s.frame_of_patch[j] == largest) members.emplace_back(&patches.patches[j], s.local_of_patch[j]);
-  const OrientationFrame frame = refit_frame(s.frames[largest], locals, members);
+    members[static_cast<std::size_t>(s.frame_of_patch[j])].emplace_back(&patches.patches[j], s.local_of_patch[j]);
   std::vector<std::pair<double, double>> squares;  // of tilts, over the systematic doubt; the patch's area
-  for (const auto& [patch, local] : members) {
-    const Vec3 n = frame.direction(locals[local]);
-    const double across = std::abs(n.dot(patch->fit.normal));
-    const auto add = [&](const Vec3& axis, double doubt, double systematic) {
-      if (systematic > 0 && doubt - systematic < kPrecise * systematic)
-        squares.emplace_back(std::pow(n.dot(axis) / across, 2) / systematic, patch->area);
-    };
-    add(patch->fit.u, patch->doubt_u, patch->systematic_u);
-    add(patch->fit.v, patch->doubt_v, patch->systematic_v);
+  for (std::size_t f = 0; f < s.frames.size(); ++f) {
+    if (members[f].size() < kFewestMembers) continue;
+    const OrientationFrame frame = refit_frame(s.frames[f], locals, members[f]);
+    const double tilts = 2.0 * static_cast<double>(members[f].size()), fitted = tilts / (tilts - kTurns);
+    for (const auto& [patch, local] : members[f]) {
+      const Vec3 n = frame.direction(locals[local]);
+      const double across = std::abs(n.dot(patch->fit.normal));
+      const auto add = [&, area = patch->area](const Vec3& axis, double doubt, double systematic) {
+        if (systematic > 0 && doubt - systematic < kPrecise * systematic)
+          squares.emplace_back(fitted * std::pow(n.dot(axis) / across, 2) / systematic, area);
+      };
+      add(patch->fit.u, patch->doubt_u, patch->systematic_u);
+      add(patch->fit.v, patch->doubt_v, patch->systematic_v);
+    }
   }
   if (squares.size() < kEnough) return 1.0;
   const double safety = 2 + 4 / std::sqrt(static_cast<double>(squares.size()));
