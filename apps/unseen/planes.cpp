@@ -58,11 +58,13 @@ void print_summary(const planes::Arrangement& a, const Arguments& args, bool dra
   const std::size_t points = report::count_of(a.summary, "points"), assigned = report::count_of(a.summary, "assigned");
   const bool estimated = !args.options.scale && !args.options.relative_scale;
   const std::string thing = a.two_dimensional ? "line" : "plane";
+  const std::size_t finite = report::count_of(a.summary, "finite");
   const double share =
-      points == 0 ? 0.0 : 100.0 * static_cast<double>(assigned) / static_cast<double>(points);
+      finite == 0 ? 0.0 : 100.0 * static_cast<double>(assigned) / static_cast<double>(finite);
+  const std::string left_out = finite == points ? "" : fmt::format(" ({} are no numbers)", points - finite);
   if (a.two_dimensional && !drawing_expected)
     fmt::print("all points share one coordinate: taken as a drawing\n");
-  fmt::print("{}, {} of them on a {} ({:.1f} %)\n", plural(points, "point"), assigned, thing, share);
+  fmt::print("{}{}, {} of them on a {} ({:.1f} %)\n", plural(points, "point"), left_out, assigned, thing, share);
   fmt::print("{} in {}, {}\n", plural(a.planes.size(), thing), plural(a.frames.size(), "orientation frame"),
              plural(a.directions.size(), "direction"));
   fmt::print("{}, {} of {}s related\n", plural(a.relations.size(), "relation"),

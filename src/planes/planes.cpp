@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "planes/arrange.h"
 #include "planes/assign.h"
 #include "planes/cells.h"
@@ -43,6 +47,27 @@ void check_not_collinear(const VoxelGrid& grid, const Space& space, const std::s
   const PlaneFit fit = fit_plane(all, space);
   if (!space.is_2d() && fit.spread_v < 1e-6 * fit.spread_u)
     throw InputError(name, "points", "all in one line", "points on surfaces");
+}
+
+/// Warns of coordinates that single precision has rounded coarsely, as large ones are that were stored without an offset.
+void warn_of_lost_digits(const Survey& survey, double scale, Context& context) {
+  constexpr double kCoarse = 0.25;  // of the scale
+  const auto farthest = static_cast<float>(std::max(survey.low.cwiseAbs().maxCoeff(), survey.high.cwiseAbs().maxCoeff()));
+  const double step = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
+  const auto single = [](const Vec3& p) { return p == p.cast<float>().cast<double>(); };
+  if (step < kCoarse * scale || !std::all_of(survey.sample.begin(), survey.sample.end(), single)) return;
+  context.warn(fmt::format("the coordinates, up to {:.7g} m, are rounded to single precision, in steps of {:.2g} m: details below that are lost. "
+                           "Export them in double precision, or less an offset", farthest, step));
+}
+
+/// Warns where an estimated scale leaves most of the points without a plane.
+void warn_of_few(const Arrangement& result, std::size_t usable, Context& context) {
+  constexpr double kFew = 0.5;
+  std::size_t assigned = 0;
+  for (const ArrangedPlane& p : result.planes) assigned += p.points;
+  if (static_cast<double>(assigned) > kFew * static_cast<double>(usable)) return;
+  context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m; if the scene is made of planes, try a larger one "
+                           "(--scale)", 100.0 * static_cast<double>(assigned) / static_cast<double>(usable), result.scale));
 }
 
 void record(const Selection& selection, Summary& summary) {
@@ -89,6 +114,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
     if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
     if (!options.scale && !options.relative_scale) context.message(fmt::format("scale {:.4g} m, estimated from spacing and noise", result.scale));
+    warn_of_lost_digits(seen, result.scale, context);
     summary.counts = {{"points", seen.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0},
                       {"finite", seen.finite}, {"duplicates", seen.duplicates}};
   }
@@ -157,6 +183,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
     for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
     summary.counts[3].second = result.planes.size();
+    if (!options.scale && !options.relative_scale) warn_of_few(result, seen.finite, context);
   }
   Stage stage(context, summary, "relations");
   find_relations(angles, result);

@@ -156,6 +156,19 @@ TEST(BadInput, CoordinatesWhoseDifferenceIsNoNumber) {
                  Options(), "extent");
 }
 
+/// Map coordinates in single precision come in steps of half a metre: said. Small ones lose nothing.
+TEST(BadInput, LostDigitsAreSaid) {
+  for (const double away : {5e6, 0.0}) {
+    PointCloud cloud = box();
+    for (Vec3& p : cloud.positions) p = (p + Vec3::Constant(away)).cast<float>().cast<double>();
+    const std::vector<std::string> warnings = test::run(cloud, test::with_scale(0.08)).result.summary.warnings;
+    ASSERT_EQ(warnings.size(), away > 0.0 ? 1u : 0u);
+    if (away > 0.0) {
+      EXPECT_NE(warnings[0].find("single precision, in steps of 0.5 m"), std::string::npos) << warnings[0];
+    }
+  }
+}
+
 /// Zero normals: said, and no worse than none.
 TEST(BadInput, ZeroNormalsAreEstimatedInstead) {
   PointCloud cloud = box();

@@ -46,6 +46,31 @@ TEST(ChooseScale, IsThatOfTheWholeCloud) {
   EXPECT_NEAR(scale_of(cloud), expected, 0.2 * expected);
 }
 
+/// A scanner on a car: lines 10 cm apart with a point a centimetre. The nearest neighbours are all in one line, and tell nothing of a surface.
+TEST(ChooseScale, ReachesTheNextLineOfAScan) {
+  PointCloud cloud;
+  Random random(3);
+  for (int line = 0; line < 40; ++line)
+    for (int i = 0; i < 400; ++i) cloud.positions.emplace_back(0.1 * line, 0.01 * (i + random.uniform()), 0.002 * random.normal());
+  const double scale = scale_of(cloud);
+  EXPECT_GT(scale, 0.1);
+  EXPECT_LT(scale, 0.2);
+}
+
+/// The two sides of a wall in a plan, 12 cm apart, are no noise of one line.
+TEST(ChooseScale, KeepsTheSidesOfADrawnWallApart) {
+  for (const double step : {0.01, 0.015}) {
+    PointCloud cloud;
+    Random random(3);
+    for (double x = 0; x < 10; x += step)
+      for (const double y : {0.0, 0.12}) cloud.positions.emplace_back(x + step * random.uniform(), y + 0.001 * random.normal(), 0);
+    CloudSource source(cloud);
+    Context context;
+    const Survey s = survey(source, context);
+    EXPECT_LT(choose_scale(source, s, space_of(s, true), {}), 0.07) << step;
+  }
+}
+
 TEST(ChooseScale, TakesWhatItIsTold) {
   const PointCloud cloud = test::plane_cloud(0.02, 0.0);
   Options options;
