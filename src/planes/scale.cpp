@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "planes/neighbourhoods.h"
 #include "planes/weighted.h"
@@ -15,6 +16,8 @@ namespace {
 
 constexpr std::size_t kProbes = 2000, kNormalProbes = 128;  // for the scale; for whether normals are usable
 constexpr double kSparsest = 3.0, kFar = 2.0;               // times the typical spacing
+constexpr double kSparsestSurface = 6.0;                   // the same where the points clearly are a surface:
+constexpr double kEven = 0.1;                               // rms over spacing
 constexpr std::size_t kFewest = 32, kMost = 128;            // neighbours of a probe
 constexpr std::size_t kSurrounding = 6;                     // neighbours at least that tell the spacing
 constexpr double kThread = 0.2;                             // spread across over spread along: less is one line of a scan
@@ -80,15 +83,19 @@ std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::s
   return probes;
 }
 
-/// The same among all points of the source. Where even `most` of them are no flat disc, those of the sample
-/// tell.
+/// The same among all points of the source. Where even `most` of them are no flat disc, and where points are too sparse to be gathered, those of
+/// the sample tell.
 std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,
                                 std::size_t count, std::size_t most, const Context& context) {
   const SampleTree tree(survey);
   const std::vector<Neighbourhood> near = neighbourhoods(source, survey, tree, count, most, context);
   std::vector<Probe> probes;
   for (std::size_t i = 0; i < near.size(); ++i) {
-    if (near[i].size() < 2) continue;
+    if (near[i].size() < 2) {
+      probes.push_back(probe(tree.around(i, most), i, space));
+      probes.back().spacing *= space.is_2d() ? survey.share : std::sqrt(survey.share);
+      continue;
+    }
     probes.push_back(probe(near[i], i, space));
     if (!is_flat(probes.back().fit, space)) probes.back().fit = probe(tree.around(i, 4 * most), i, space).fit;
   }
@@ -107,7 +114,8 @@ double median(const std::vector<Probe>& probes, const Space& space, F value) {
   std::vector<std::pair<double, double>> weighted;
   for (const Probe& p : probes) {
     const bool stray = p.spacing > kFar * *middle && p.fit.rms > kThick * p.spacing;
-    const double side = stray ? 0.0 : std::min(p.spacing, kSparsest * *middle);
+    const double sparsest = p.fit.rms < kEven * p.spacing ? kSparsestSurface : kSparsest;
+    const double side = stray ? 0.0 : std::min(p.spacing, sparsest * *middle);
     weighted.emplace_back(value(p), space.is_2d() ? side : side * side);
   }
   return weighted_quantile(std::move(weighted), 0.5);
