@@ -60,7 +60,6 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
                     Model& model, const Context& context) {
   const double scale = 2.0 * grid.edge;
-  constexpr double kMostPoints = 60;  // independent ones of a part: noise is correlated
   constexpr double kExact = 0.003;    // of the scale: what differs by less is the same
   struct Sum {
     Moments moments;

@@ -13,7 +13,6 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kSystematicTilt = 0.5 * kPi / 180.0;  // rad: registration, calibration, walls out of plumb
-constexpr double kMostPoints = 60;    // noise is correlated over long distances: no patch counts for more points
 constexpr double kLargestShift = 0.15;  // of the scale, of points one standard deviation from the centre
 constexpr double kScaleShare = 0.03;  // of the scale: rims and clutter pull a patch's edge by as much
 

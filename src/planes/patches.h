@@ -9,6 +9,8 @@
 
 namespace unseen::planes {
 
+constexpr double kMostPoints = 60;  ///< of a patch that count as independent: noise is correlated
+
 /// S_j with its local fit P_j (thesis Section 3.3.1): a connected set of voxels with consistent normals.
 struct Patch {
   std::vector<int> cells;  ///< voxel indices, ascending

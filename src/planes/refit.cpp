@@ -16,7 +16,6 @@ constexpr double kEnough = 0.5;  // share of a support's points that may stand f
 constexpr double kLoose = 3.0 * kPi / 180.0;  // rad: damping of a step
 constexpr double kRedundant = 1e-11;  // share of a relation's own gradient that others do not explain
 constexpr double kFloor = 0.01 * kPi / 180.0;  // rad: no surface is known better than this
-constexpr double kMostPoints = 60;  // independent ones of a surface: noise is correlated
 constexpr double kOdd = 2.0;        // standard deviations: tilts beyond it count less (Huber 1964)
 
 }  // namespace

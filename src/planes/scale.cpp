@@ -28,7 +28,7 @@ constexpr double kThick = 0.3;                              // rms over spacing 
 
 struct Probe {
   double spacing = 0;     ///< m, to the sixth neighbour, or as far as those reach that lie in more than one line
-  PlaneFit fit;           ///< of the nearest 32 (2D: 8), or more where these are no flat disc
+  PlaneFit fit;           ///< of the nearest 32 (2D: 8 or 16 in a line), or more where these are no flat disc
   bool surrounded = true; ///< false: even the last neighbour lies in one line with the others
   std::size_t index = 0;  ///< in the sample
 };

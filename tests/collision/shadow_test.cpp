@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/candidates.h"
+#include "collision/chain.h"
 #include "collision/regions.h"
 #include "collision/tracks.h"
 #include "little_videos.h"
@@ -157,6 +158,44 @@ TEST(Shadow, AWhiteBallKeepsItsShadedSideInAGrayClip) {
     whole += std::abs(r.diameter - 40.5) < 3.0 && (r.centroid - bouncing(k)).norm() < 2.0;
   }
   EXPECT_GE(whole, 26);
+}
+
+/// Half of the ball is the floor with less light, as far as colours tell; its outline says that it is a ball.
+TEST(Shadow, ABallKeepsItsShadedSideOfTheFloorsColor) {
+  const cv::Mat background = plain(cv::Scalar(100, 160, 110));
+  const Footage footage = film("greenside", [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_ball(frame, bouncing(k), 20.0, cv::Scalar(112, 208, 143));
+    return frame;
+  });
+  int whole = 0;
+  for (int k = 5; k < 35; ++k) {
+    ASSERT_FALSE(footage.regions[k].empty()) << k;
+    const Region& r = footage.regions[k][0];
+    whole += std::abs(r.diameter - 40.5) < 3.0 && (r.centroid - bouncing(k)).norm() < 2.0;
+  }
+  EXPECT_GE(whole, 27);
+}
+
+/// The shadow on the floor never bounces, and is seen in every frame as one long flight.
+TEST(Shadow, AFlatShadowIsFollowedLessThanItsBall) {
+  Candidates candidates(60);
+  for (int k = 0; k < 60; ++k) {
+    const double t = k < 22 ? k : k < 45 ? k - 22.0 : k - 45.0;
+    const double height = 0.25 * (k < 22 ? 22.0 * 22.0 - t * t : t * ((k < 45 ? 23.0 : 15.0) - t));
+    Candidate ball, shadow;
+    ball.frame = shadow.frame = k;
+    ball.u = shadow.u = k;
+    ball.pixel = {300.0 + 2.0 * k, 320.0 - height};
+    ball.diameter = 36.0, ball.area = 1018.0, ball.round = 0.95;
+    shadow.pixel = {320.0 + 2.0 * k, 345.0};
+    shadow.diameter = 7.0, shadow.area = 230.0, shadow.round = 0.19;
+    candidates[static_cast<std::size_t>(k)] = {ball, shadow};
+  }
+  Context context;
+  const Tracks tracks = find_chain(bounce_shot(), candidates, 0, 120.0, 0.3, context);
+  ASSERT_FALSE(tracks.points.empty());
+  for (const TrackPoint& p : tracks.points) EXPECT_EQ(p.diameter, 36.0);
 }
 
 }  // namespace
