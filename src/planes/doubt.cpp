@@ -10,8 +10,8 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kEnough = 12;      // tilts
-constexpr std::size_t kFewestMembers = 4;  // of a frame that tells
+constexpr std::size_t kEnough = 10;      // tilts
+constexpr std::size_t kFewestMembers = 3;  // of a frame that tells
 constexpr double kTurns = 3;             // of a frame, which its members' tilts pay for
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
