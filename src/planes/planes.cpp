@@ -97,6 +97,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   Summary& summary = result.summary;
   const SourceInfo info = source.info();
   const AngleSet angles = angles_of(options);
+  const std::optional<Vec3> viewpoint = viewpoint_of(options, info);
   for (const double a : options.angles) result.angles.push_back(radians(a));
   result.lambda = options.lambda;
 
@@ -133,7 +134,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   {
     Stage stage(context, summary, "normals");
     cells = estimate_normals(grid, space, context);
-    if (options.adaptive_scale) adapt_tolerance(cells, grid, viewpoint_of(options, info));
+    if (options.adaptive_scale) adapt_tolerance(cells, grid, viewpoint);
   }
   Patches patches;
   {

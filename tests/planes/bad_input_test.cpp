@@ -82,6 +82,8 @@ TEST(BadInput, AViewpointThatIsNoPoint) {
   options.adaptive_scale = true;
   options.viewpoint = {1, 2};
   expect_refused(box(), options, "viewpoint");
+  options.adaptive_scale = false;  // where nothing asks for it, too
+  expect_refused(box(), options, "viewpoint");
 }
 
 TEST(BadInput, OptionsOutsideTheirRange) {
