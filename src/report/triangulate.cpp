@@ -13,6 +13,8 @@ namespace {
 
 using Index = std::uint32_t;
 
+constexpr double kSliver = 1e-7;  // height over length of a triangle that is a line in single precision: it has no normal, and is left out
+
 /// Positions by vertex, shifted to the outline's first point; a chain lists vertices with the inside on its
 /// left.
 using Points = std::vector<Vec2>;
@@ -160,6 +162,10 @@ struct Ears {
 
   const Vec2& at(std::size_t i) const { return points[chain[i]]; }
   double corner(std::size_t i) const { return turn(at(prev[i]), at(i), at(next[i])); }
+  bool is_sliver(std::size_t i) const {
+    const Vec2 &a = at(prev[i]), &b = at(i), &c = at(next[i]);
+    return corner(i) < kSliver * std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  }
 
   bool is_ear(std::size_t i) const {
     const std::size_t a = prev[i], c = next[i];
@@ -191,7 +197,7 @@ std::vector<Triangle> cut_ears(const Points& points, const Chain& chain) {
     const bool stuck = since_cut > left;  // only collinear or crossing rests: give up the flattest corner
     if (stuck) at = flattest;
     if (stuck || left == 3 || ears.is_ear(at)) {
-      if (ears.corner(at) > 0) triangles.push_back({chain[ears.prev[at]], chain[at], chain[ears.next[at]]});
+      if (!ears.is_sliver(at)) triangles.push_back({chain[ears.prev[at]], chain[at], chain[ears.next[at]]});
       ears.cut(at);
       --left;
       since_cut = 0;

@@ -113,6 +113,18 @@ TEST(Triangulate, BrokenRingsEnd) {
   EXPECT_TRUE(triangulate({Ring{{0, 0}, {1, 1}, {2, 2}, {3, 3}}}).empty());
 }
 
+/// Corners along a slanting side are in line but for rounding. A triangle of three of them would have any normal.
+TEST(Triangulate, NoTriangleIsALine) {
+  for (int degree = 1; degree < 360; ++degree) {
+    const Eigen::Rotation2Dd turn(radians(degree));
+    Ring ring;
+    for (const Vec2& p : {Vec2(0, 0), Vec2(0.3, 0), Vec2(1.1, 0), Vec2(1.7, 0), Vec2(2, 0), Vec2(1, 1)}) ring.push_back(turn * p);
+    const auto triangles = triangulate({ring});
+    EXPECT_NEAR(covered({ring}, triangles), 1.0, 1e-6);
+    for (const Triangle& t : triangles) EXPECT_GT(doubled_area({ring[t[0]], ring[t[1]], ring[t[2]]}), 1e-6) << degree;
+  }
+}
+
 TEST(Triangulate, InSpaceWindingFollowsTheNormal) {
   const Vec3 normal = Vec3(1, -2, 3).normalized(), u = any_orthogonal(normal), v = normal.cross(u);
   const Vec3 origin(500000, 5400000, 300);
