@@ -65,7 +65,7 @@ void warn_of_few(const Arrangement& result, std::size_t usable, Context& context
   constexpr double kFew = 0.5;
   std::size_t assigned = 0;
   for (const ArrangedPlane& p : result.planes) assigned += p.points;
-  if (static_cast<double>(assigned) > kFew * static_cast<double>(usable)) return;
+  if (result.planes.empty() || static_cast<double>(assigned) > kFew * static_cast<double>(usable)) return;
   context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m; if the scene is made of planes, try a larger one "
                            "(--scale)", 100.0 * static_cast<double>(assigned) / static_cast<double>(usable), result.scale));
 }
@@ -184,7 +184,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
     for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
     summary.counts[3].second = result.planes.size();
-    if (!options.scale && !options.relative_scale) warn_of_few(result, seen.finite, context);
+    if (!options.scale && !options.relative_scale) warn_of_few(result, seen.finite - seen.duplicates, context);
   }
   Stage stage(context, summary, "relations");
   find_relations(angles, result);

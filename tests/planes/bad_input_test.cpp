@@ -171,6 +171,21 @@ TEST(BadInput, LostDigitsAreSaid) {
   }
 }
 
+/// Two of three points in the air: said, if the scale is an estimate. Points that are there many times count once.
+TEST(BadInput, FewPointsOnPlanesAreSaid) {
+  PointCloud cloud = box();
+  for (int i = 0; i < 20000; ++i) cloud.positions.push_back(cloud.positions[0]);
+  EXPECT_TRUE(test::run(cloud, Options()).result.summary.warnings.empty());
+  cloud = box();
+  Random random(3);
+  for (std::size_t i = 0, count = 2 * cloud.size(); i < count; ++i)
+    cloud.positions.emplace_back(random.uniform(3, 5), random.uniform(3, 5), random.uniform(3, 5));
+  const std::vector<std::string> warnings = test::run(cloud, Options()).result.summary.warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("of the points lie on planes"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(test::run(cloud, test::with_scale(0.08)).result.summary.warnings.empty());
+}
+
 /// Zero normals: said, and no worse than none.
 TEST(BadInput, ZeroNormalsAreEstimatedInstead) {
   PointCloud cloud = box();
