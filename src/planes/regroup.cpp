@@ -13,7 +13,9 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kSplitGain = 0.6;       // a split must leave less than this share of the squared error
-constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature
+constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature, unless
+constexpr double kShallow = 0.02, kShallowGain = 0.3;  // they are above this, rad, and leave less than this share,
+constexpr std::size_t kShallowCells = 100;  // of so many voxels or more
 constexpr double kMergeLoss = 1.2;       // a merge may raise either part's rms by this factor
 constexpr std::size_t kSplitCells = 12;  // smaller regions are left alone
 constexpr double kRimReach = 1.3;        // of the local reach: how near a larger region must be to explain one
@@ -29,6 +31,7 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
                                                        const std::vector<int>& region) {
   const Moments whole = sum_of(grid, region);
   const PlaneFit fit = fit_plane(whole, space);
+  const double shallow = region.size() < kShallowCells ? 0.0 : kShallowGain * squared_error(whole, space);
   double best = kSplitGain * squared_error(whole, space);
   std::pair<std::vector<int>, std::vector<int>> parts;
   const int directions = space.is_2d() ? 1 : 8;
@@ -57,7 +60,9 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
       if (below.count < least || above[c].count < least) continue;
       const PlaneFit a = fit_plane(below, space), b = fit_plane(above[c], space);
       const double error = a.rms * a.rms * below.count + b.rms * b.rms * above[c].count;
-      if (error >= best || line_angle(a.normal, b.normal) < kSplitAngle) continue;
+      if (error >= best) continue;
+      const double hinge = line_angle(a.normal, b.normal);
+      if (hinge < kSplitAngle && (hinge < kShallow || error > shallow)) continue;
       best = error;
       parts = {};
       for (std::size_t i = 0; i < region.size(); ++i)

@@ -79,6 +79,15 @@ TEST_P(Hinges, MakeTwoPatches) {
                 std::binary_search(sets[j].begin(), sets[j].end(), static_cast<int>(i)));
 }
 
+/// A ramp: all of it lies within the tolerance of one plane through floor and ramp, but far beyond the noise.
+TEST(Hinge, OfAFewDegreesMakesTwoPatches) {
+  Scene scene(hinge(177, 0.002));
+  const Patches p = segment(scene.grid, scene.cells, scene.space, kAngle, scene.context);
+  ASSERT_EQ(p.patches.size(), 2u);
+  EXPECT_NEAR(degrees(line_angle(p.patches[0].fit.normal, p.patches[1].fit.normal)), 3.0, 0.3);
+  for (const Patch& patch : p.patches) EXPECT_NEAR(patch.area, 2.0, 0.3);
+}
+
 TEST(Grow, TwoPlanesBecomeTwoRegions) {
   for (const double angle : {90.0, 150.0}) {
     Scene scene(hinge(angle, 0.003));
