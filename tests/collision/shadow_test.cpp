@@ -144,6 +144,17 @@ TEST(Shadow, AShadowInAGrayClipIsNoBody) {
   EXPECT_GT(shadows, 10);
 }
 
+/// In how many of 30 frames the largest region is all of a bouncing ball of 20 px radius.
+int whole_balls(const Footage& footage) {
+  int whole = 0;
+  for (int k = 5; k < 35; ++k) {
+    const std::vector<Region>& regions = footage.regions[k];
+    EXPECT_FALSE(regions.empty()) << k;
+    whole += !regions.empty() && std::abs(regions[0].diameter - 40.5) < 3.0 && (regions[0].centroid - bouncing(k)).norm() < 2.0;
+  }
+  return whole;
+}
+
 TEST(Shadow, AWhiteBallKeepsItsShadedSideInAGrayClip) {
   const cv::Mat background = plain(cv::Scalar::all(170));
   const Footage footage = film("grayside", [&](int k) {
@@ -151,13 +162,7 @@ TEST(Shadow, AWhiteBallKeepsItsShadedSideInAGrayClip) {
     draw_ball(frame, bouncing(k), 20.0, cv::Scalar::all(240));
     return gray(frame);
   });
-  int whole = 0;  // in a few frames the band that is as bright as the wall parts it
-  for (int k = 5; k < 35; ++k) {
-    ASSERT_FALSE(footage.regions[k].empty()) << k;
-    const Region& r = footage.regions[k][0];
-    whole += std::abs(r.diameter - 40.5) < 3.0 && (r.centroid - bouncing(k)).norm() < 2.0;
-  }
-  EXPECT_GE(whole, 26);
+  EXPECT_GE(whole_balls(footage), 26);  // in a few frames the band that is as bright as the wall parts it
 }
 
 /// Half of the ball is the floor with less light, as far as colours tell; its outline says that it is a ball.
@@ -168,13 +173,7 @@ TEST(Shadow, ABallKeepsItsShadedSideOfTheFloorsColor) {
     draw_ball(frame, bouncing(k), 20.0, cv::Scalar(112, 208, 143));
     return frame;
   });
-  int whole = 0;
-  for (int k = 5; k < 35; ++k) {
-    ASSERT_FALSE(footage.regions[k].empty()) << k;
-    const Region& r = footage.regions[k][0];
-    whole += std::abs(r.diameter - 40.5) < 3.0 && (r.centroid - bouncing(k)).norm() < 2.0;
-  }
-  EXPECT_GE(whole, 27);
+  EXPECT_GE(whole_balls(footage), 27);
 }
 
 /// The shadow on the floor never bounces, and is seen in every frame as one long flight.

@@ -159,12 +159,17 @@ TEST_P(Refit, NoFeasibleNeighbourIsBetter) {
   }
 }
 
-/// One frame, two equally certain fits that are 90° + 2e apart: each turns by e.
-TEST(RefitModel, SplitsTheErrorOfTwoEqualFits) {
-  Random random(1);
+Model one_frame() {
   Model m;
   m.locals = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
   m.frames = {{Mat3::Identity(), true}};
+  return m;
+}
+
+/// One frame, two equally certain fits that are 90° + 2e apart: each turns by e.
+TEST(RefitModel, SplitsTheErrorOfTwoEqualFits) {
+  Random random(1);
+  Model m = one_frame();
   const double e = radians(0.4);
   m.surfaces = {surface_of(0, 0, {std::cos(e), -std::sin(e), 0}, 1e-5, 1e-5, random),
                 surface_of(0, 1, {-std::sin(e), std::cos(e), 0}, 1e-5, 1e-5, random)};
@@ -177,9 +182,7 @@ TEST(RefitModel, SplitsTheErrorOfTwoEqualFits) {
 /// With variances 1 : 3 the errors go 1 : 3.
 TEST(RefitModel, WeighsByVariance) {
   Random random(2);
-  Model m;
-  m.locals = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  m.frames = {{Mat3::Identity(), true}};
+  Model m = one_frame();
   const double e = radians(0.4), floor = std::pow(radians(0.01), 2), variance = 1e-5;
   m.surfaces = {
       surface_of(0, 0, {std::cos(e), -std::sin(e), 0}, variance, variance, random),
@@ -192,9 +195,7 @@ TEST(RefitModel, WeighsByVariance) {
 /// One that is a hundred standard errors off pulls with the force of two.
 TEST(RefitModel, OddSurfacesHardlyCount) {
   Random random(2);
-  Model m;
-  m.locals = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  m.frames = {{Mat3::Identity(), true}};
+  Model m = one_frame();
   const double sigma = radians(0.05), floor = std::pow(radians(0.01), 2), variance = sigma * sigma - floor, e = 100.0 * sigma;
   m.surfaces = {surface_of(0, 0, {1, 0, 0}, variance, variance, random), surface_of(0, 1, {std::sin(e), std::cos(e), 0}, variance, variance, random)};
   refit(m);
@@ -204,9 +205,7 @@ TEST(RefitModel, OddSurfacesHardlyCount) {
 /// Of correlated noise a large surface averages less away than its points are many; it still tells more than a small one.
 TEST(RefitModel, LargeSurfacesTellMore) {
   Random random(2);
-  Model m;
-  m.locals = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  m.frames = {{Mat3::Identity(), true}};
+  Model m = one_frame();
   const double e = radians(0.1);
   m.surfaces = {surface_of(0, 0, {1, 0, 0}, 0.0, 0.0, random), surface_of(0, 1, {std::sin(e), std::cos(e), 0}, 0.0, 0.0, random)};
   for (Surface& s : m.surfaces) s.support.fit.rms = 0.01, s.support.moments.count = 1e5;
