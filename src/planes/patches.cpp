@@ -109,6 +109,11 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
 
 }  // namespace
 
+double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, double spread) {
+  const double independent = std::clamp(moments.count - 3, 1.0, kMostPoints), width = std::max(spread, 1e-300);
+  return std::max(variance, fit.rms * fit.rms / (independent * width * width));
+}
+
 Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise) {
   Patch patch;
   patch.cells = std::move(cells);
@@ -124,13 +129,11 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
     // No doubt excuses a tilt that carries the patch's points out of the plane's tolerance.
     return std::min(tilt, std::pow(kLargestShift * scale / width, 2));
   };
-  const double independent = std::clamp(patch.moments.count - 3, 1.0, kMostPoints);
-  const auto noise = [&](double variance, double width) { return std::max(variance, fit.rms * fit.rms / (independent * width * width)); };
   const double width_u = std::max(fit.spread_u, 1e-300), width_v = std::max(fit.spread_v, 1e-300);
   patch.systematic_u = systematic(width_u);
   patch.systematic_v = space.is_2d() ? 0.0 : systematic(width_v);  // a line cannot tilt out of its drawing
-  patch.doubt_u = noise(patch.variance_u, width_u) + patch.systematic_u;
-  patch.doubt_v = space.is_2d() ? std::numeric_limits<double>::infinity() : noise(patch.variance_v, width_v) + patch.systematic_v;
+  patch.doubt_u = tilt_noise(patch.moments, fit, patch.variance_u, width_u) + patch.systematic_u;
+  patch.doubt_v = space.is_2d() ? std::numeric_limits<double>::infinity() : tilt_noise(patch.moments, fit, patch.variance_v, width_v) + patch.systematic_v;
   return patch;
 }
 

@@ -39,6 +39,9 @@ Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells);
 /// the sweep's own plane, however noisy they are: no fit counts as better than `least_noise` (m) allows.
 Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise);
 
+/// The variance (rad²) of a fit's tilt along one of its axes with at least as much as independent points leave, `spread` (m) along it.
+double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, double spread);
+
 /// Grows regions over neighbouring voxels, from the flattest upward, while normals stay within `angle` (rad)
 /// of the running fit and residuals within the local scale; then splits what two planes explain clearly
 /// better, and joins what one explains as well.

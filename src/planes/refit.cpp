@@ -55,10 +55,7 @@ Turns turns_of(const Model& model) {
           std::vector<Vec3>(model.frames.size(), Vec3::Zero())};
   for (const Surface& surface : model.surfaces) {
     const Patch& s = surface.support;
-    const auto variance = [&](double variance, double spread) {
-      const double correlated = s.fit.rms * s.fit.rms / (std::min(kMostPoints, s.moments.count) * std::max(spread * spread, 1e-300));
-      return std::max(variance, correlated) + kFloor * kFloor;
-    };
+    const auto variance = [&](double variance, double spread) { return tilt_noise(s.moments, s.fit, variance, spread) + kFloor * kFloor; };
     for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), variance(s.variance_u, s.fit.spread_u),
                                                 s.variance_v > 0.0 ? variance(s.variance_v, s.fit.spread_v) : kFloor * kFloor)) {
       const double weight = r.weight / std::max(1.0, std::abs(r.value) * std::sqrt(r.weight) / kOdd);
