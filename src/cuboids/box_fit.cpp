@@ -168,14 +168,6 @@ Mat3 free_axes(const Observation& seen, std::vector<const Face*> faces) {
   return axes;
 }
 
-/// Share of the points that lie on faces across one of the axes.
-double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes) {
-  std::size_t count = 0;
-  for (const Face* face : faces)
-    if ((axes.transpose() * face->plane.normal).cwiseAbs().maxCoeff() > kAlignedCosine) count += face->points.size();
-  return static_cast<double>(count) / static_cast<double>(points.size());
-}
-
 Mat3 level_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces) {
   // Turns of upright faces count modulo a quarter: sum unit vectors at four times the angle.
   Vec2 sum = Vec2::Zero();
@@ -199,6 +191,13 @@ Mat3 level_axes(const Observation& seen, std::span<const int> points, std::span<
 }
 
 }  // namespace
+
+double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes) {
+  std::size_t count = 0;
+  for (const Face* face : faces)
+    if ((axes.transpose() * face->plane.normal).cwiseAbs().maxCoeff() > kAlignedCosine) count += face->points.size();
+  return static_cast<double>(count) / static_cast<double>(points.size());
+}
 
 Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation) {
   if (faces.empty()) return level_axes(seen, points, faces);

@@ -16,6 +16,9 @@ namespace unseen::cuboids {
 /// to the largest face where that clearly leans; unless the faces that were seen clearly follow the free axes instead.
 Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation);
 
+/// Share of the points that lie on faces across one of the axes.
+double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes);
+
 /// The box with the given axes around what was seen: sides where a face was seen by the face's mean, the others where
 /// the points end (median over slices), at least a voxel thick away from the viewpoint.
 OrientedBox bound(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,

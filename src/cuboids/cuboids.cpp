@@ -3,6 +3,7 @@
 #include "unseen/cuboids/cuboids.h"
 
 #include "cuboids/complete.h"
+#include "cuboids/cuts.h"
 #include "cuboids/observation.h"
 
 namespace unseen::cuboids {
@@ -23,7 +24,7 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
   std::vector<ObjectPart> parts;
   {
     const Stage stage(context, summary, "objects");
-    parts = find_objects(frame, seen, options, context);
+    parts = cut_hollow_parts(seen, view, find_objects(frame, seen, options, context), context);
     summary.counts.emplace_back("parts", parts.size());
   }
   {

@@ -9,7 +9,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kSmallGap = 2.5;  // tolerances
-constexpr double kUpright = 0.7;   // cosine
+constexpr double kLevelCosine = 0.7;   // cosine
 constexpr double kFacing = 0.95;   // cosine between the move and the contact it makes
 
 /// m, from a face of a box to the nearest body in its way, if that is near but not met yet; 0 if there is none.
@@ -42,7 +42,7 @@ void close_hidden_gaps(Rooms& rooms, Problem& problem) {
   for (std::size_t i = 0; i < solids.size(); ++i)
     for (int face = 0; face < 6; ++face) {
       OrientedBox& box = problem.cuboids[i].initial;
-      if (std::abs(face_normal(box, face).z()) < kUpright || rooms[i][face] < kHiddenRoom * problem.tolerance[i]) continue;
+      if (std::abs(face_normal(box, face).z()) < kLevelCosine || rooms[i][face] < kHiddenRoom * problem.tolerance[i]) continue;
       const int body = problem.supports_count() + static_cast<int>(i);
       const double length = small_gap(problem, solids, meet[body], body, face, rooms[i][face]);
       if (length <= 0.0) continue;

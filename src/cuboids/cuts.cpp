@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/cuts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "cuboids/box_fit.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr int kMostFreeCells = 24;          // an axis
+constexpr double kCellSigmas = 3.0;
+constexpr double kDeepSigmas = 4.0;         // before a surface, beyond the sensor's noise: its warps
+constexpr std::size_t kFewestPiecePoints = 80;
+constexpr double kSmallestPiece = 0.02;     // of the points that are cut
+constexpr double kHollow = 0.08;            // of a hull's volume: less free space is noise or a rounded edge
+constexpr double kLeastSaving = 1.0 / 3.0;  // of the free space within the hull
+constexpr double kPrice = 0.02;              // of a hull: free space that one more piece must save
+constexpr double kFlat = 0.9;                // of the points, on sides of boxes
+constexpr int kFewestFlatPoints = 24;
+constexpr int kFirstCuts = 16, kFinerCuts = 4;
+
+/// The least polytope with 26 sides of given directions around points: nearly their convex hull.
+class Hull {
+ public:
+  void add(const Vec3& p) {
+    const Heights h = heights(p);
+    low_ = low_.min(h);
+    high_ = high_.max(h);
+  }
+  bool contains(const Vec3& p) const {
+    const Heights h = heights(p);
+    return (h > low_).all() && (h < high_).all();
+  }
+
+ private:
+  using Heights = Eigen::Array<double, 13, 1>;
+  static Heights heights(const Vec3& p) {
+    const double x = p.x(), y = p.y(), z = p.z();
+    Heights h;
+    h << x, y, z, x + y, x - y, x + z, x - z, y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z;
+    return h;
+  }
+  Heights low_ = Heights::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
+};
+
+/// What is cut: points in the coordinates of some axes, and the cells of their bounding box that were seen free.
+struct Body {
+  std::vector<Vec3> places;     ///< of all points that are looked at, by index into Observation::points
+  std::vector<int> face;        ///< of a point, −1 = none: what flies about an edge spans no hull
+  std::vector<Vec3> cells;         ///< of their bounding box
+  std::vector<char> is_free;
+  std::vector<Plane> face_planes;  ///< a little in front of the faces
+};
+
+struct Piece {
+  std::vector<int> points;
+  Hull hull;
+  double within = 0, free = 0;  ///< cells within the hull
+};
+
+Piece piece_of(const Body& body, std::vector<int> points) {
+  Piece piece;
+  for (const int i : points)
+    if (body.face[i] >= 0) piece.hull.add(body.places[i]);
+  for (std::size_t k = 0; k < body.cells.size(); ++k)
+    if (piece.hull.contains(body.cells[k])) piece.within += 1.0, piece.free += body.is_free[k];
+  piece.points = std::move(points);
+  return piece;
+}
+
+/// Connected pieces of some points on either side of a plane; those too small to tell are left out.
+std::vector<Piece> cut_at(const Observation& seen, const Body& body, const std::vector<int>& points, const Plane& plane,
+                          std::vector<signed char>& side) {
+  for (const int i : points) side[i] = plane.signed_distance(body.places[i]) < 0.0 ? 1 : 2;
+  const std::size_t fewest = std::max(kFewestPiecePoints, static_cast<std::size_t>(kSmallestPiece * static_cast<double>(points.size())));
+  std::vector<Piece> pieces;
+  for (const int start : points) {
+    if (side[start] == 0) continue;
+    const signed char own = side[start];
+    std::vector<int> members{start};
+    side[start] = 0;
+    for (std::size_t k = 0; k < members.size(); ++k)
+      for (const int j : seen.graph.neighbours(members[k]))
+        if (side[j] == own) side[j] = 0, members.push_back(j);
+    if (members.size() < fewest) continue;
+    std::sort(members.begin(), members.end());
+    pieces.push_back(piece_of(body, std::move(members)));
+  }
+  return pieces;
+}
+
+/// The cut that leaves the least free space within the pieces' hulls: across one of the axes, or along what is seen of a face.
+std::vector<Piece> best_cut(const Observation& seen, const Body& body, const Piece& whole, std::vector<signed char>& side) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const int i : whole.points) low = low.cwiseMin(body.places[i]), high = high.cwiseMax(body.places[i]);
+  std::vector<Piece> best;
+  double least = std::numeric_limits<double>::infinity();
+  Plane at;
+  const auto attempt = [&](const Plane& plane) {
+    std::vector<Piece> pieces = cut_at(seen, body, whole.points, plane, side);
+    if (pieces.size() < 2) return;
+    double left = static_cast<double>(pieces.size()) * kPrice * whole.within;
+    for (const Piece& piece : pieces) left += piece.free;
+    if (left < least) least = left, best = std::move(pieces), at = plane;
+  };
+  for (const Plane& plane : body.face_planes) attempt(plane);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int k = 1; k < kFirstCuts; ++k) attempt({Vec3::Unit(axis), low[axis] + (high[axis] - low[axis]) * k / kFirstCuts});
+  if (best.empty()) return best;
+  const Plane middle = at;
+  const double step = middle.normal.dot(high - low) / kFirstCuts / kFinerCuts;
+  for (int k = -kFinerCuts + 1; k < kFinerCuts; ++k) attempt({middle.normal, middle.offset + step * k});
+  return best;
+}
+
+/// Pieces that one hull may hold as well are one again.
+void join_pieces(const Observation& seen, const Body& body, std::vector<Piece>& pieces) {
+  std::vector<int> owner(seen.points.size(), -1);
+  for (bool again = true; again;) {
+    again = false;
+    std::fill(owner.begin(), owner.end(), -1);
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      for (const int i : pieces[k].points) owner[i] = static_cast<int>(k);
+    std::set<std::pair<int, int>> neighbours;
+    for (std::size_t k = 0; k < pieces.size(); ++k)
+      for (const int i : pieces[k].points)
+        for (const int j : seen.graph.neighbours(i))
+          if (owner[j] > static_cast<int>(k)) neighbours.insert({static_cast<int>(k), owner[j]});
+    for (const auto& [a, b] : neighbours) {
+      std::vector<int> points = pieces[a].points;
+      points.insert(points.end(), pieces[b].points.begin(), pieces[b].points.end());
+      std::sort(points.begin(), points.end());
+      Piece both = piece_of(body, std::move(points));
+      if (both.free > pieces[a].free + pieces[b].free + kPrice * both.within) continue;
+      pieces[a] = std::move(both);
+      pieces.erase(pieces.begin() + b);
+      again = true;
+      break;
+    }
+  }
+}
+
+double free_of(const std::vector<Piece>& pieces) {
+  double sum = 0;
+  for (const Piece& piece : pieces) sum += piece.free;
+  return sum;
+}
+
+/// Cells of the bounding box of some points, in the coordinates of `axes`; how many are within the hull, and which of these are free.
+void look_into(const Observation& seen, const DepthView& view, std::span<const int> points, const Mat3& axes, Body& body) {
+  Hull hull;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double sigma = 0;
+  for (const int i : points) {
+    const Vec3 p = body.places[i] = axes.transpose() * seen.points[i];
+    if (body.face[i] >= 0) hull.add(p);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    sigma += seen.graph.sigma[i] / static_cast<double>(points.size());
+  }
+  std::array<int, 3> count;
+  for (int k = 0; k < 3; ++k) count[k] = std::clamp(static_cast<int>((high[k] - low[k]) / (kCellSigmas * sigma)), 1, kMostFreeCells);
+  body.cells.clear();
+  body.is_free.clear();
+  const double margin = kDeepSigmas * sigma;
+  for (int z = 0; z < count[2]; ++z)
+    for (int y = 0; y < count[1]; ++y)
+      for (int x = 0; x < count[0]; ++x) {
+        const Vec3 share((x + 0.5) / count[0], (y + 0.5) / count[1], (z + 0.5) / count[2]);
+        const Vec3 place = low + share.cwiseProduct(high - low);
+        if (!hull.contains(place)) continue;
+        body.cells.push_back(place);
+        const Vec3 world = axes * place, behind = world + margin * (world - view.viewpoint()).normalized();
+        body.is_free.push_back(view.at(behind) == DepthView::Space::free);
+      }
+}
+
+/// Directions a little in front of the faces of a part that are large enough to tell.
+std::vector<Plane> planes_before(const Observation& seen, const std::vector<const Face*>& faces, std::size_t points, const Mat3& axes) {
+  std::vector<Plane> planes;
+  for (const Face* face : faces)
+    if (static_cast<double>(face->points.size()) > kSmallestPiece * static_cast<double>(points))
+      planes.push_back({axes.transpose() * face->plane.normal, face->plane.offset + kCellSigmas * seen.graph.sigma[face->points.front()]});
+  return planes;
+}
+
+/// Cuts as long as it saves free space, and joins again what one hull may hold.
+std::vector<Piece> cut_apart(const Observation& seen, const Body& body, const std::vector<int>& points, Context& context) {
+  std::vector<signed char> side(seen.points.size(), 0);
+  std::vector<Piece> open{piece_of(body, points)}, done;
+  while (!open.empty()) {
+    context.check();
+    Piece piece = std::move(open.back());
+    open.pop_back();
+    std::vector<Piece> cut;
+    if (piece.free >= kHollow * piece.within) cut = best_cut(seen, body, piece, side);
+    if (cut.empty() || free_of(cut) > (1.0 - kLeastSaving) * piece.free) done.push_back(std::move(piece));
+    else open.insert(open.end(), std::make_move_iterator(cut.begin()), std::make_move_iterator(cut.end()));
+  }
+  join_pieces(seen, body, done);
+  return done;
+}
+
+/// Faces of groups of points, and the group of each.
+struct GroupedFaces {
+  Faces faces;
+  std::vector<std::vector<const Face*>> of_group;
+};
+
+template <typename Groups>
+GroupedFaces faces_of(const Observation& seen, const Groups& groups) {
+  std::vector<int> group(seen.points.size(), -1);
+  for (std::size_t k = 0; k < groups.size(); ++k)
+    for (const int i : groups[k].points) group[i] = static_cast<int>(k);
+  GroupedFaces result{grow_faces(seen.points, seen.graph, group, seen.T_world_camera.translation, kFewestFlatPoints), {}};
+  result.of_group.resize(groups.size());
+  for (const Face& face : result.faces.faces) result.of_group[group[face.points.front()]].push_back(&face);
+  return result;
+}
+
+/// Whether nearly all of what was seen of the pieces are sides of boxes.
+bool are_boxes(const Observation& seen, const std::vector<Piece>& pieces) {
+  const GroupedFaces faces = faces_of(seen, pieces);
+  double all = 0, explained = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const double count = static_cast<double>(pieces[k].points.size());
+    all += count;
+    explained += count * explained_share(pieces[k].points, faces.of_group[k], box_axes(seen, pieces[k].points, faces.of_group[k], false));
+  }
+  return explained >= kFlat * all;
+}
+
+}  // namespace
+
+std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context) {
+  const GroupedFaces faces = faces_of(seen, parts);
+  Body body;
+  body.places.resize(seen.points.size());
+  body.face = faces.faces.face_of_point;
+  std::vector<ObjectPart> result;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    context.check();
+    ObjectPart& part = parts[k];
+    std::vector<Piece> pieces;
+    if (part.label.empty()) {
+      const Mat3 axes = box_axes(seen, part.points, faces.of_group[k], part.free_orientation);
+      body.face_planes = planes_before(seen, faces.of_group[k], part.points.size(), axes);
+      look_into(seen, view, part.points, axes, body);
+      pieces = cut_apart(seen, body, part.points, context);
+    }
+    if (pieces.size() < 2 || !are_boxes(seen, pieces)) result.push_back(std::move(part));
+    else
+      for (Piece& piece : pieces) result.push_back({std::move(piece.points), part.label, part.free_orientation});
+  }
+  return result;
+}
+
+}  // namespace unseen::cuboids

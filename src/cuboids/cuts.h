@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <vector>
+
+#include "cuboids/observation.h"
+
+namespace unseen::cuboids {
+
+/// Parts that nobody named, and in whose convex hull much free space was seen, are several bodies: they are cut apart, across their axes, where
+/// that leaves the least of it within the hulls of the pieces (approximate convex decomposition, by what is free instead of by a surface).
+std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context);
+
+}  // namespace unseen::cuboids
