@@ -3,12 +3,17 @@
 #include "cuboids/complete.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "cuboids/hypotheses.h"
+#include "cuboids/slabs.h"
 #include "unseen/cuboids/cuboids.h"
 
 namespace unseen::cuboids {
 namespace {
+
+constexpr double kMuchFree = 0.25;     // of a box; in that around a standing cylinder 21 % are free
+constexpr std::size_t kMostNamed = 6;
 
 /// Writes the chosen arrangement into the result.
 void describe(const Problem& problem, const std::vector<char>& held, const Arrangement& arrangement, Completion& result) {
@@ -58,6 +63,20 @@ void describe(const Problem& problem, const std::vector<char>& held, const Arran
     result.stability.margin = margin(structure.bodies, structure.contacts, problem.stable_residual);
     result.stability.friction_needed = friction_needed(structure.bodies, structure.contacts, problem.stable_residual);
   }
+}
+
+/// Boxes around what is no box hold space that the camera saw free.
+void warn_of_free_space(const DepthView& view, const std::vector<double>& tolerance, const std::vector<Cuboid>& cuboids, Context& context) {
+  std::vector<std::pair<double, int>> free;
+  for (std::size_t i = 0; i < cuboids.size(); ++i)
+    if (const double share = 1.0 - filled_share(view, cuboids[i].box, tolerance[i]); share > kMuchFree) free.emplace_back(-share, cuboids[i].id);
+  if (free.empty()) return;
+  std::sort(free.begin(), free.end());
+  std::string named;
+  for (std::size_t k = 0; k < std::min(free.size(), kMostNamed); ++k)
+    named += fmt::format("{}{} ({:.0f} %)", k > 0 ? ", " : "", free[k].second, -100.0 * free[k].first);
+  if (free.size() > kMostNamed) named += fmt::format(" and {} more", free.size() - kMostNamed);
+  context.warn(fmt::format("what was seen is no box, and its box holds space that was seen free: cuboid {}", named));
 }
 
 }  // namespace
@@ -126,6 +145,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   settle(problem, choice.held, arrangement, context);
   hold_together(problem, choice.held, arrangement, context);
   describe(problem, choice.held, arrangement, result);
+  warn_of_free_space(view, problem.tolerance, result.cuboids, context);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {
     summary.status = Status::infeasible;

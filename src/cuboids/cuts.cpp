@@ -20,6 +20,9 @@ constexpr double kDeepSigmas = 4.0;         // before a surface, beyond the sens
 constexpr std::size_t kFewestPiecePoints = 80;
 constexpr double kSmallestPiece = 0.02;     // of the points that are cut
 constexpr double kHollow = 0.08;            // of a hull's volume: less free space is noise or a rounded edge
+constexpr double kHollowStep = 0.03;        // beside a step
+constexpr double kLargeFace = 0.05, kStepSigmas = 5.0;
+const double kParallelCosine = std::cos(radians(10.0));
 constexpr double kLeastSaving = 1.0 / 3.0;  // of the free space within the hull
 constexpr double kPrice = 0.02;              // of a hull: free space that one more piece must save
 constexpr double kFlat = 0.9;                // of the points, on sides of boxes
@@ -191,8 +194,20 @@ std::vector<Plane> planes_before(const Observation& seen, const std::vector<cons
   return planes;
 }
 
+/// Whether two large faces look the same way from different levels, as no box has them.
+bool has_steps(const Observation& seen, const std::vector<const Face*>& faces, std::size_t points) {
+  const auto is_large = [&](const Face* face) { return static_cast<double>(face->points.size()) > kLargeFace * static_cast<double>(points); };
+  for (std::size_t a = 0; a < faces.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      if (!is_large(faces[a]) || !is_large(faces[b]) || faces[a]->plane.normal.dot(faces[b]->plane.normal) < kParallelCosine) continue;
+      const double step = std::min(std::abs(faces[a]->plane.signed_distance(faces[b]->center)), std::abs(faces[b]->plane.signed_distance(faces[a]->center)));
+      if (step > kStepSigmas * seen.graph.sigma[faces[a]->points.front()]) return true;
+    }
+  return false;
+}
+
 /// Cuts as long as it saves free space, and joins again what one hull may hold.
-std::vector<Piece> cut_apart(const Observation& seen, const Body& body, const std::vector<int>& points, Context& context) {
+std::vector<Piece> cut_apart(const Observation& seen, const Body& body, const std::vector<int>& points, double hollow, Context& context) {
   std::vector<signed char> side(seen.points.size(), 0);
   std::vector<Piece> open{piece_of(body, points)}, done;
   while (!open.empty()) {
@@ -200,7 +215,7 @@ std::vector<Piece> cut_apart(const Observation& seen, const Body& body, const st
     Piece piece = std::move(open.back());
     open.pop_back();
     std::vector<Piece> cut;
-    if (piece.free >= kHollow * piece.within) cut = best_cut(seen, body, piece, side);
+    if (piece.free >= hollow * piece.within) cut = best_cut(seen, body, piece, side);
     if (cut.empty() || free_of(cut) > (1.0 - kLeastSaving) * piece.free) done.push_back(std::move(piece));
     else open.insert(open.end(), std::make_move_iterator(cut.begin()), std::make_move_iterator(cut.end()));
   }
@@ -253,7 +268,8 @@ std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthVie
       const Mat3 axes = box_axes(seen, part.points, faces.of_group[k], part.free_orientation);
       body.face_planes = planes_before(seen, faces.of_group[k], part.points.size(), axes);
       look_into(seen, view, part.points, axes, body);
-      pieces = cut_apart(seen, body, part.points, context);
+      const double hollow = has_steps(seen, faces.of_group[k], part.points.size()) ? kHollowStep : kHollow;
+      pieces = cut_apart(seen, body, part.points, hollow, context);
     }
     if (pieces.size() < 2 || !are_boxes(seen, pieces)) result.push_back(std::move(part));
     else
