@@ -19,7 +19,7 @@ constexpr double kSystematic = 0.02;        // rad, of a measured normal whateve
 constexpr double kLeanSigmas = 4.0;         // standard errors: a largest face that leans by less is level …
 constexpr double kSlantSigmas = 2.0;        // … and so is what only two faces together say is slanted …
 const double kVagueLean = radians(4.0);     // … and a face whose direction noise leaves as open: slivers between edges
-constexpr double kEnoughExplained = 0.6, kClearlyMore = 0.2;  // shares of the points, for axes that are not level
+constexpr double kEnoughExplained = 0.6, kMuchMore = 0.2;  // shares of the points, for axes that are not level
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
 constexpr double kEndSlack = 0.02, kEndSigmas = 1.0, kSlackShare = 0.25;  // m, and of the extent: points that fly beyond a face
@@ -205,7 +205,7 @@ Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<co
   if (free_orientation) return free;
   const Mat3 level = level_axes(seen, points, faces);
   const double share = explained_share(points, faces, free);
-  if (share < kEnoughExplained || share < explained_share(points, faces, level) + kClearlyMore) return level;
+  if (share < kEnoughExplained || share < explained_share(points, faces, level) + kMuchMore) return level;
   const bool leans = std::any_of(faces.begin(), faces.end(), [&](const Face* face) { return leans_from(seen, *face, kSlantSigmas).has_value(); });
   return leans ? free : turned(std::atan2(free(1, 0), free(0, 0)));
 }

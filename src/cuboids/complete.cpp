@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "cuboids/depth_noise.h"
 #include "cuboids/hypotheses.h"
 #include "cuboids/slabs.h"
 #include "unseen/cuboids/cuboids.h"
@@ -88,7 +89,7 @@ bool stands(const Problem& problem, const Arrangement& arrangement, const std::v
 
 void complete_boxes(const RgbdFrame& frame, const Options& options, Context& context, Completion& result) {
   Summary& summary = result.summary;
-  const DepthView view(frame, result.T_world_camera, options.noise);
+  const DepthView view(frame, result.T_world_camera, depth_noise(frame, options));
   Problem problem;
   Rooms rooms;
   problem.friction = options.friction;

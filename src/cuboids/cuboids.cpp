@@ -4,6 +4,7 @@
 
 #include "cuboids/complete.h"
 #include "cuboids/cuts.h"
+#include "cuboids/depth_noise.h"
 #include "cuboids/observation.h"
 
 namespace unseen::cuboids {
@@ -20,7 +21,7 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
     result.supports = seen.supports;
     summary.counts.emplace_back("points", seen.points.size());
   }
-  const DepthView view(frame, result.T_world_camera, options.noise);
+  const DepthView view(frame, result.T_world_camera, depth_noise(frame, options));
   std::vector<ObjectPart> parts;
   {
     const Stage stage(context, summary, "objects");

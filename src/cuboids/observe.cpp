@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "cuboids/depth_noise.h"
 #include "cuboids/observation.h"
 #include "cuboids/supports.h"
 #include "unseen/core/error.h"
@@ -172,7 +173,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
   const Measured measured = measured_points(frame);
   check_points(frame, measured);
   Observation seen;
-  seen.graph = link_points(frame, measured, options.noise, options.gap, context);
+  seen.graph = link_points(frame, measured, depth_noise(frame, options), options.gap, context);
   context.check();
   const SupportFaces flat = faces_of_supports(frame, measured, seen.graph);
   const Scan scan{measured.points, seen.graph, flat.faces, !frame.is_fused()};

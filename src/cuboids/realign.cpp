@@ -7,6 +7,7 @@
 
 #include "cuboids/box_fit.h"
 #include "cuboids/complete.h"
+#include "cuboids/depth_noise.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -23,7 +24,7 @@ Observation observed(const RgbdFrame& frame, const Completion& scene, const Opti
   const Measured measured = measured_points(frame);
   Observation seen;
   seen.T_world_camera = scene.T_world_camera;
-  seen.graph = link_points(frame, measured, options.noise, options.gap, context);
+  seen.graph = link_points(frame, measured, depth_noise(frame, options), options.gap, context);
   for (const Vec3& p : measured.points) seen.points.push_back(scene.T_world_camera * p);
   for (Vec3& n : seen.graph.normals) n = scene.T_world_camera.rotation * n;
   seen.support_of_point.assign(seen.points.size(), -1);

@@ -56,7 +56,7 @@ TEST(Invariance, ScalingDepthAndNoiseScalesTheBoxes) {
   RgbdFrame large = frame;
   for (float& depth : large.depth) depth *= 3.0f;
   Options options;
-  options.noise /= 3.0;  // σ grows with the square of the depth
+  options.noise = depth_noise(frame, {}) / 3.0;  // σ grows with the square of the depth
   const Perceived a = perceive(frame), b = perceive(large, options);
   ASSERT_EQ(a.fitted.size(), b.fitted.size());
   for (const Cuboid& cuboid : a.fitted) {

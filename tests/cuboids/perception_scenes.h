@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "cuboids/cuts.h"
+#include "cuboids/depth_noise.h"
 #include "cuboids/observation.h"
 #include "unseen/core/random.h"
 
@@ -107,8 +109,8 @@ inline Perceived perceive(const RgbdFrame& frame, Options options = {}, int thre
   context.threads = threads;
   Perceived p;
   p.seen = observe(frame, options, context);
-  p.parts = find_objects(frame, p.seen, options, context);
-  const DepthView view(frame, p.seen.T_world_camera, options.noise);
+  const DepthView view(frame, p.seen.T_world_camera, depth_noise(frame, options));
+  p.parts = cut_hollow_parts(p.seen, view, find_objects(frame, p.seen, options, context), context);
   p.fitted = p.cuboids = fit_cuboids(frame, p.seen, p.parts, view, options, context);
   align_to_image_edges(frame, p.seen, view, p.cuboids, options, context);
   return p;

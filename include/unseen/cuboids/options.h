@@ -14,7 +14,7 @@ namespace unseen::cuboids {
 struct Options {
   double friction = 0.7;           ///< μ
   double density = 300.0;          ///< kg/m³, where the frame names none
-  double noise = 0.0015;           ///< σ of the depth at 1 m, m; grows with the square of the depth
+  std::optional<double> noise;     ///< σ of the depth at 1 m, m; grows with the square of the depth; unset = measured, at most 0.0015
   std::optional<double> gap;       ///< m, between parts of one object; unset = from noise and pixel spacing
   double fill = 0.7;               ///< share of filled voxels in a slab
   double stable_residual = 0.05;   ///< an arrangement with a smaller residual stands

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include "cuboids/slabs.h"
+#include "perception_scenes.h"
+
+namespace unseen::cuboids::test {
+namespace {
+
+/// A plank on two blocks, flush in front: one connected surface, and free space between the blocks.
+Scene bridge() {
+  Scene scene;
+  scene.boxes = {upright(-0.165, 0.9, 0, {0.17, 0.12, 0.12}, 0), upright(0.165, 0.9, 0, {0.17, 0.12, 0.12}, 0),
+                 upright(0, 0.9, 0.12, {0.5, 0.12, 0.04}, 0)};
+  return scene;
+}
+
+TEST(Cuts, APlankIsPartedFromTheBlocksThatCarryIt) {
+  const RgbdFrame frame = render(bridge());
+  const Perceived p = perceive(frame);
+  for (const OrientedBox& box : bridge().boxes)
+    EXPECT_TRUE(std::any_of(p.fitted.begin(), p.fitted.end(), [&](const Cuboid& cuboid) {
+      const Vec3 size = 2.0 * (cuboid.box.half_size - box.half_size), place = cuboid.box.center - box.center;
+      return std::hypot(size.x(), size.z()) < 0.02 && std::hypot(place.x(), place.z()) < 0.02;
+    }));
+  const DepthView view(frame, p.seen.T_world_camera, depth_noise(frame, {}));
+  for (const Cuboid& cuboid : p.fitted) EXPECT_GT(filled_share(view, cuboid.box, 0.005), 0.9);
+}
+
+TEST(Cuts, ASmallBoxFlushWithACornerOfALargeOneIsItsOwn) {  // the step is what tells
+  Scene scene;
+  scene.boxes = {upright(0, 0.8, 0, {0.3, 0.25, 0.1}, 30), upright(0, 0.8, 0.1, {0.12, 0.12, 0.06}, 30)};
+  scene.boxes[1].center += scene.boxes[0].axes * Vec3(-0.09, -0.065, 0);
+  scene.pitch = radians(45.0);
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.fitted.size(), 2u);
+  for (const OrientedBox& box : scene.boxes) EXPECT_LT(size_error(nearest(p.fitted, box.center).box, box), 0.02);
+}
+
+TEST(Cuts, ARoundThingStaysWhole) {  // a twelve-sided column leaves a fifth of its box free, and nothing of its hull
+  Scene scene;
+  const double radius = 0.07;
+  for (int k = 0; k < 6; ++k)
+    scene.boxes.push_back(upright(0, 0.8, 0, {2.0 * radius * std::cos(radians(15.0)), 2.0 * radius * std::sin(radians(15.0)), 0.18}, 30.0 * k));
+  EXPECT_EQ(perceive(render(scene)).parts.size(), 1u);
+}
+
+TEST(Cuts, WhatAMaskNamesStaysWhole) {
+  RgbdFrame frame = render(bridge());
+  for (const auto& c : frame.color) frame.masks.push_back(c[2] != 0 ? 1 : 0);
+  const Perceived p = perceive(frame);
+  for (const Cuboid& cuboid : p.fitted) EXPECT_EQ(cuboid.object, p.fitted.front().object);
+}
+
+TEST(DepthNoise, OfABetterSensorIsMeasured) {
+  Scene scene;
+  scene.boxes = {upright(-0.15, 0.9, 0, {0.2, 0.15, 0.1}, 20)};
+  for (const double noise : {0.0003, 0.0006, 0.001}) {
+    scene.noise = noise;
+    const double found = depth_noise(render(scene), {});
+    EXPECT_GT(found, noise);
+    EXPECT_LT(found, 1.5 * noise);
+  }
+  scene.noise = 0.004;
+  EXPECT_EQ(depth_noise(render(scene), {}), 0.0015);
+  Options given;
+  given.noise = 0.01;
+  EXPECT_EQ(depth_noise(render(scene), given), 0.01);
+}
+
+TEST(DepthNoise, OfNextToNothingIsThatOfAKinect) {
+  RgbdFrame frame = render(Scene());
+  for (std::size_t i = 0; i < frame.depth.size(); ++i)
+    if (i % 3 != 0) frame.depth[i] = 0.0f;
+  EXPECT_EQ(depth_noise(frame, {}), 0.0015);
+}
+
+}  // namespace
+}  // namespace unseen::cuboids::test
