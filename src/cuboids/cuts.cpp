@@ -3,86 +3,35 @@
 #include "cuboids/cuts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
 
 #include "cuboids/box_fit.h"
+#include "cuboids/hollow.h"
 
 namespace unseen::cuboids {
 namespace {
 
-constexpr int kMostFreeCells = 24;          // an axis
-constexpr double kCellSigmas = 3.0;
-constexpr double kDeepSigmas = 4.0;         // before a surface, beyond the sensor's noise: its warps
 constexpr std::size_t kFewestPiecePoints = 80;
-constexpr double kSmallestPiece = 0.02;     // of the points that are cut
-constexpr double kKept = 0.95;              // of these points: a cut along a noisy surface crumbles it
-constexpr double kHollow = 0.08;            // of a hull's volume: less free space is noise or a rounded edge
-constexpr double kHollowStep = 0.03;        // beside a step
-constexpr double kLargeFace = 0.05, kStepSigmas = 5.0;
-const double kParallelCosine = std::cos(radians(10.0));
+constexpr double kSmallestPiece = 0.02;  // of the points that are cut
+constexpr double kKept = 0.95;           // of these points: a cut along a noisy surface crumbles it
+constexpr double kHollow = 0.08;         // of a hull's volume: less free space is noise or a rounded edge
+constexpr double kHollowStep = 0.03;     // beside a step
+constexpr double kLargeFace = 0.05;      // of a part's points
+constexpr double kStepSigmas = 5.0;
+constexpr double kBeforeFaceSigmas = 3.0;
 constexpr double kLeastSaving = 1.0 / 3.0;  // of the free space within the hull
-constexpr double kPrice = 0.02;              // of a hull: free space that one more piece must save
-constexpr double kFlat = 0.9;                // of the points, on sides of boxes
+constexpr double kPrice = 0.02;             // of a hull: free space that one more piece must save
+constexpr double kFlat = 0.9;               // of the points, on sides of boxes
 constexpr int kFewestFlatPoints = 24;
 constexpr int kFirstCuts = 16, kFinerCuts = 4;
-
-/// The least polytope with 26 sides of given directions around points: nearly their convex hull.
-class Hull {
- public:
-  void add(const Vec3& p) {
-    const Heights h = heights(p);
-    low_ = low_.min(h);
-    high_ = high_.max(h);
-  }
-  bool contains(const Vec3& p) const {
-    const Heights h = heights(p);
-    return (h > low_).all() && (h < high_).all();
-  }
-
- private:
-  using Heights = Eigen::Array<double, 13, 1>;
-  static Heights heights(const Vec3& p) {
-    const double x = p.x(), y = p.y(), z = p.z();
-    Heights h;
-    h << x, y, z, x + y, x - y, x + z, x - z, y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z;
-    return h;
-  }
-  Heights low_ = Heights::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
-};
-
-/// What is cut: points in the coordinates of some axes, and the cells of their bounding box that were seen free.
-struct Interior {
-  std::vector<Vec3> places;     ///< of all points that are looked at, by index into Observation::points
-  std::vector<int> face;        ///< of a point, −1 = none: what flies about an edge spans no hull
-  std::vector<Vec3> cells;         ///< of their bounding box
-  std::vector<char> is_free;
-  std::vector<Plane> face_planes;  ///< a little in front of the faces
-};
-
-struct Piece {
-  std::vector<int> points;
-  Hull hull;
-  double within = 0, free = 0;  ///< cells within the hull
-};
-
-Piece piece_of(const Interior& interior, std::vector<int> points) {
-  Piece piece;
-  for (const int i : points)
-    if (interior.face[i] >= 0) piece.hull.add(interior.places[i]);
-  for (std::size_t k = 0; k < interior.cells.size(); ++k)
-    if (piece.hull.contains(interior.cells[k])) piece.within += 1.0, piece.free += interior.is_free[k];
-  piece.points = std::move(points);
-  return piece;
-}
+const double kParallelCosine = std::cos(radians(10.0));
 
 /// Connected pieces of some points on either side of a plane; those too small to tell are left out.
 std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, const std::vector<int>& points, const Plane& plane,
                           std::vector<signed char>& side) {
-  for (const int i : points) side[i] = plane.signed_distance(interior.places[i]) < 0.0 ? 1 : 2;
+  for (const int i : points) side[i] = plane.signed_distance(seen.points[i]) < 0.0 ? 1 : 2;
   const std::size_t fewest = std::max(kFewestPiecePoints, static_cast<std::size_t>(kSmallestPiece * static_cast<double>(points.size())));
   std::vector<Piece> pieces;
   for (const int start : points) {
@@ -95,15 +44,25 @@ std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, con
         if (side[j] == own) side[j] = 0, members.push_back(j);
     if (members.size() < fewest) continue;
     std::sort(members.begin(), members.end());
-    pieces.push_back(piece_of(interior, std::move(members)));
+    pieces.push_back(piece_of(seen, interior, std::move(members)));
   }
   return pieces;
 }
 
+double free_of(const std::vector<Piece>& pieces) {
+  double sum = 0;
+  for (const Piece& piece : pieces) sum += piece.free;
+  return sum;
+}
+
 /// The cut that leaves the least free space within the pieces' hulls: across one of the axes, or along what is seen of a face.
-std::vector<Piece> best_cut(const Observation& seen, const Interior& interior, const Piece& whole, std::vector<signed char>& side) {
+std::vector<Piece> best_cut(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const Piece& whole, std::vector<signed char>& side) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const int i : whole.points) low = low.cwiseMin(interior.places[i]), high = high.cwiseMax(interior.places[i]);
+  for (const int i : whole.points) {
+    const Vec3 p = interior.axes.transpose() * seen.points[i];
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
   std::vector<Piece> best;
   double least = std::numeric_limits<double>::infinity();
   Plane at;
@@ -112,16 +71,15 @@ std::vector<Piece> best_cut(const Observation& seen, const Interior& interior, c
     std::size_t kept = 0;
     for (const Piece& piece : pieces) kept += piece.points.size();
     if (pieces.size() < 2 || static_cast<double>(kept) < kKept * static_cast<double>(whole.points.size())) return;
-    double left = static_cast<double>(pieces.size()) * kPrice * whole.within;
-    for (const Piece& piece : pieces) left += piece.free;
+    const double left = free_of(pieces) + static_cast<double>(pieces.size()) * kPrice * whole.within;
     if (left < least) least = left, best = std::move(pieces), at = plane;
   };
-  for (const Plane& plane : interior.face_planes) attempt(plane);
+  for (const Plane& plane : planes) attempt(plane);
   for (int axis = 0; axis < 3; ++axis)
-    for (int k = 1; k < kFirstCuts; ++k) attempt({Vec3::Unit(axis), low[axis] + (high[axis] - low[axis]) * k / kFirstCuts});
+    for (int k = 1; k < kFirstCuts; ++k) attempt({interior.axes.col(axis), low[axis] + (high[axis] - low[axis]) * k / kFirstCuts});
   if (best.empty()) return best;
   const Plane middle = at;
-  const double step = middle.normal.dot(high - low) / kFirstCuts / kFinerCuts;
+  const double step = (interior.axes.transpose() * middle.normal).cwiseAbs().dot(high - low) / kFirstCuts / kFinerCuts;
   for (int k = -kFinerCuts + 1; k < kFinerCuts; ++k) attempt({middle.normal, middle.offset + step * k});
   return best;
 }
@@ -143,7 +101,7 @@ void join_pieces(const Observation& seen, const Interior& interior, std::vector<
       std::vector<int> points = pieces[a].points;
       points.insert(points.end(), pieces[b].points.begin(), pieces[b].points.end());
       std::sort(points.begin(), points.end());
-      Piece both = piece_of(interior, std::move(points));
+      Piece both = piece_of(seen, interior, std::move(points));
       if (both.free > pieces[a].free + pieces[b].free + kPrice * both.within) continue;
       pieces[a] = std::move(both);
       pieces.erase(pieces.begin() + b);
@@ -153,47 +111,12 @@ void join_pieces(const Observation& seen, const Interior& interior, std::vector<
   }
 }
 
-double free_of(const std::vector<Piece>& pieces) {
-  double sum = 0;
-  for (const Piece& piece : pieces) sum += piece.free;
-  return sum;
-}
-
-/// Cells of the bounding box of some points, in the coordinates of `axes`; how many are within the hull, and which of these are free.
-void look_into(const Observation& seen, const DepthView& view, std::span<const int> points, const Mat3& axes, Interior& interior) {
-  Hull hull;
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  double sigma = 0;
-  for (const int i : points) {
-    const Vec3 p = interior.places[i] = axes.transpose() * seen.points[i];
-    if (interior.face[i] >= 0) hull.add(p);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-    sigma += seen.graph.sigma[i] / static_cast<double>(points.size());
-  }
-  std::array<int, 3> count;
-  for (int k = 0; k < 3; ++k) count[k] = std::clamp(static_cast<int>((high[k] - low[k]) / (kCellSigmas * sigma)), 1, kMostFreeCells);
-  interior.cells.clear();
-  interior.is_free.clear();
-  const double margin = kDeepSigmas * sigma;
-  for (int z = 0; z < count[2]; ++z)
-    for (int y = 0; y < count[1]; ++y)
-      for (int x = 0; x < count[0]; ++x) {
-        const Vec3 share((x + 0.5) / count[0], (y + 0.5) / count[1], (z + 0.5) / count[2]);
-        const Vec3 place = low + share.cwiseProduct(high - low);
-        if (!hull.contains(place)) continue;
-        interior.cells.push_back(place);
-        const Vec3 world = axes * place, behind = world + margin * (world - view.viewpoint()).normalized();
-        interior.is_free.push_back(view.at(behind) == DepthView::Space::free);
-      }
-}
-
-/// Directions a little in front of the faces of a part that are large enough to tell.
-std::vector<Plane> planes_before(const Observation& seen, const std::vector<const Face*>& faces, std::size_t points, const Mat3& axes) {
+/// Planes a little in front of the faces of a part that are large enough to tell.
+std::vector<Plane> planes_before(const Observation& seen, const std::vector<const Face*>& faces, std::size_t points) {
   std::vector<Plane> planes;
   for (const Face* face : faces)
     if (static_cast<double>(face->points.size()) > kSmallestPiece * static_cast<double>(points))
-      planes.push_back({axes.transpose() * face->plane.normal, face->plane.offset + kCellSigmas * seen.graph.sigma[face->points.front()]});
+      planes.push_back({face->plane.normal, face->plane.offset + kBeforeFaceSigmas * seen.graph.sigma[face->points.front()]});
   return planes;
 }
 
@@ -210,15 +133,16 @@ bool has_steps(const Observation& seen, const std::vector<const Face*>& faces, s
 }
 
 /// Cuts as long as it saves free space, and joins again what one hull may hold.
-std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, const std::vector<int>& points, double hollow, Context& context) {
+std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const std::vector<int>& points, double hollow,
+                             Context& context) {
   std::vector<signed char> side(seen.points.size(), 0);
-  std::vector<Piece> open{piece_of(interior, points)}, done;
+  std::vector<Piece> open{piece_of(seen, interior, points)}, done;
   while (!open.empty()) {
     context.check();
     Piece piece = std::move(open.back());
     open.pop_back();
     std::vector<Piece> cut;
-    if (piece.free >= hollow * piece.within) cut = best_cut(seen, interior, piece, side);
+    if (piece.free >= hollow * piece.within) cut = best_cut(seen, interior, planes, piece, side);
     if (cut.empty() || free_of(cut) > (1.0 - kLeastSaving) * piece.free) done.push_back(std::move(piece));
     else open.insert(open.end(), std::make_move_iterator(cut.begin()), std::make_move_iterator(cut.end()));
   }
@@ -259,9 +183,6 @@ bool are_boxes(const Observation& seen, const std::vector<Piece>& pieces) {
 
 std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context) {
   const GroupedFaces faces = faces_of(seen, parts);
-  Interior interior;
-  interior.places.resize(seen.points.size());
-  interior.face = faces.faces.face_of_point;
   std::vector<ObjectPart> result;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
@@ -269,10 +190,10 @@ std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthVie
     std::vector<Piece> pieces;
     if (part.label.empty()) {
       const Mat3 axes = box_axes(seen, part.points, faces.of_group[k], part.free_orientation);
-      interior.face_planes = planes_before(seen, faces.of_group[k], part.points.size(), axes);
-      look_into(seen, view, part.points, axes, interior);
+      const Interior interior = look_into(seen, view, part.points, faces.faces.face_of_point, axes);
+      const std::vector<Plane> planes = planes_before(seen, faces.of_group[k], part.points.size());
       const double hollow = has_steps(seen, faces.of_group[k], part.points.size()) ? kHollowStep : kHollow;
-      pieces = cut_apart(seen, interior, part.points, hollow, context);
+      pieces = cut_apart(seen, interior, planes, part.points, hollow, context);
     }
     if (pieces.size() < 2 || !are_boxes(seen, pieces)) result.push_back(std::move(part));
     else

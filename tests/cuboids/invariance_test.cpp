@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cuboids/depth_noise.h"
 #include "synth_frame.h"
 #include "unseen/cuboids/cuboids.h"
 
@@ -57,7 +58,7 @@ TEST_P(Invariance, OfTheContactGraph) {
   EXPECT_EQ(decisions(mirrored(frame), {}), usual) << "mirrored";
   for (const double factor : {0.8, 1.25}) {
     Options scaled_noise;
-    scaled_noise.noise /= factor;  // σ = noise · z² scales like z
+    scaled_noise.noise = depth_noise(frame, {}) / factor;  // σ = noise · z² scales like z
     EXPECT_EQ(decisions(scaled(frame, factor), scaled_noise), usual) << factor;
   }
 }

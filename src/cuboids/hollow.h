@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "cuboids/observation.h"
+
+namespace unseen::cuboids {
+
+/// The least polytope with 26 sides of given directions around points: nearly their convex hull.
+class Hull {
+ public:
+  void add(const Vec3& p) {
+    const Heights h = heights(p);
+    low_ = low_.min(h);
+    high_ = high_.max(h);
+  }
+  bool contains(const Vec3& p) const {
+    const Heights h = heights(p);
+    return (h > low_).all() && (h < high_).all();
+  }
+
+ private:
+  using Heights = Eigen::Array<double, 13, 1>;
+  static Heights heights(const Vec3& p) {
+    const double x = p.x(), y = p.y(), z = p.z();
+    Heights h;
+    h << x, y, z, x + y, x - y, x + z, x - z, y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z;
+    return h;
+  }
+  Heights low_ = Heights::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
+};
+
+/// What was seen of the space within the hull of a part.
+struct Interior {
+  Mat3 axes;                           ///< of the hull's main directions, as columns
+  std::span<const int> face_of_point;  ///< −1 = none: what flies about an edge spans no hull
+  std::vector<Vec3> cells;             ///< centres, in the coordinates of the axes
+  std::vector<char> is_free;           ///< of a cell: seen free, farther before any surface than its noise and warps reach
+};
+
+Interior look_into(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const int> face_of_point, const Mat3& axes);
+
+/// Some of the points, and the cells of the interior that are within their hull.
+struct Piece {
+  std::vector<int> points;
+  Hull hull;
+  double within = 0, free = 0;  ///< numbers of cells
+};
+
+Piece piece_of(const Observation& seen, const Interior& interior, std::vector<int> points);
+
+}  // namespace unseen::cuboids
