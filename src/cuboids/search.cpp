@@ -3,6 +3,7 @@
 #include "cuboids/search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr int kUsualPart = 8;         // bodies
 constexpr double kSameVolume = 1e-9;  // m³
-constexpr Cost kNoCost = {std::numeric_limits<int>::max(), std::numeric_limits<double>::infinity()};
+constexpr Cost kNoCost = {std::numeric_limits<int>::max(), std::numeric_limits<double>::infinity(), 0.0};
 
 /// Every face moved as far as any hypothesis asks.
 Arrangement largest_arrangement(const Problem& problem) {
@@ -153,7 +154,8 @@ bool join_entangled(const Search& s, const std::vector<int>& chosen, Parts& part
 }  // namespace
 
 bool cheaper(const Cost& a, const Cost& b) {
-  return a.fixed != b.fixed ? a.fixed < b.fixed : a.volume < b.volume - kSameVolume;
+  if (a.fixed != b.fixed) return a.fixed < b.fixed;
+  return std::abs(a.volume - b.volume) > kSameVolume ? a.volume < b.volume : a.grounded < b.grounded;
 }
 
 Choice search_contacts(const Problem& problem, const Admissible& admissible, const SearchLimits& limits, Context& context) {

@@ -14,6 +14,7 @@ namespace unseen::cuboids {
 struct Cost {
   double fixed = 0;   ///< contacts; one that leads out of the part of the scene that is looked at counts half
   double volume = 0;  ///< m³
+  double grounded = 0;  ///< fixed contacts with a ground or desk: what stands there is rarely glued to it
 };
 /// Lexicographic; volumes within a mm³ are equal.
 bool cheaper(const Cost& a, const Cost& b);
@@ -39,7 +40,7 @@ struct SearchLimits {
 using Admissible = std::function<bool(const Arrangement&)>;
 
 /// Finds at most one hypothesis a pair such that the arrangement stands, without penetration, with the fewest fixed
-/// contacts and then the least extended volume (design page, step 6). Each unstable arrangement that is met gives a
+/// contacts, then the least extended volume (design page, step 6), and of equals with the fewest contacts glued to the ground. Each unstable arrangement that is met gives a
 /// collapse motion, and of the hypotheses that could stop it one must be chosen: a hitting set is searched by branch and
 /// bound, so that few arrangements are ever balanced. Parts of the scene that do not touch are solved apart, the rest of
 /// the scene taken as firm; parts that turn out to need each other are solved together.

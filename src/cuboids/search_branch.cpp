@@ -13,9 +13,16 @@ static double cost_of_fixing(const Search& s, int a, int b) {
   return outside(a) || outside(b) ? 0.5 : 1.0;
 }
 
+static bool is_grounded(const Search& s, int a) {
+  return s.problem.is_support(a) && (s.problem.supports[a].kind == SupportKind::ground || s.problem.supports[a].kind == SupportKind::desk);
+}
+
 Cost cost_of(const Search& s, const Arrangement& now) {
   Cost cost;
-  for (const auto& [a, b] : now.fixed) cost.fixed += cost_of_fixing(s, a, b);
+  for (const auto& [a, b] : now.fixed) {
+    cost.fixed += cost_of_fixing(s, a, b);
+    cost.grounded += is_grounded(s, a);
+  }
   for (std::size_t i = 0; i < now.boxes.size(); ++i)
     if (s.inside[s.problem.supports_count() + i]) cost.volume += now.boxes[i].volume() - s.problem.cuboids[i].initial.volume();
   return cost;
@@ -27,7 +34,7 @@ static double added_volume(const Search& s, const Arrangement& now, const Hypoth
   return added_volume(s.problem, now, within);
 }
 
-static Cost operator+(const Cost& a, const Cost& b) { return {a.fixed + b.fixed, a.volume + b.volume}; }
+static Cost operator+(const Cost& a, const Cost& b) { return {a.fixed + b.fixed, a.volume + b.volume, a.grounded + b.grounded}; }
 
 std::vector<int> with(std::vector<int> chosen, int h) {
   chosen.insert(std::upper_bound(chosen.begin(), chosen.end(), h), h);
@@ -83,8 +90,8 @@ std::vector<Option> options_of(const Search& s, const std::vector<int>& cut, con
   for (const int h : cut) {
     if (closed[h]) continue;
     const Hypothesis& hypothesis = s.problem.hypotheses[h];
-    const Cost added = {hypothesis.kind == ContactKind::fixed ? cost_of_fixing(s, hypothesis.a, hypothesis.b) : 0.0,
-                        added_volume(s, now, hypothesis)};
+    Cost added = {0.0, added_volume(s, now, hypothesis), 0.0};
+    if (hypothesis.kind == ContactKind::fixed) added.fixed = cost_of_fixing(s, hypothesis.a, hypothesis.b), added.grounded = is_grounded(s, hypothesis.a);
     out.push_back({h, base + added});
   }
   std::stable_sort(out.begin(), out.end(), [](const Option& a, const Option& b) { return cheaper(a.cost, b.cost); });
@@ -117,7 +124,7 @@ static Cost lower_bound(const Search& s, const Arrangement& now, const std::vect
       for (const FaceMove& m : s.problem.hypotheses[o.hypothesis].moves) moved[m.body] = 1;
     }
     const Cost& least = branch->front().cost;
-    bound = bound + Cost{least.fixed - base.fixed, least.volume - base.volume};
+    bound = bound + Cost{least.fixed - base.fixed, least.volume - base.volume, least.grounded - base.grounded};
   }
   return bound;
 }

@@ -68,7 +68,8 @@ struct Exhaustive {
     }
     ++tried;
     const Arrangement a = arrange(problem, chosen);
-    const Cost cost = {static_cast<double>(a.fixed.size()), a.extended_volume};
+    const auto glued = std::count_if(a.fixed.begin(), a.fixed.end(), [](const auto& pair) { return pair[0] == 0; });  // the ground is the only support
+    const Cost cost = {static_cast<double>(a.fixed.size()), a.extended_volume, static_cast<double>(glued)};
     if (found && !cheaper(cost, best)) return;
     if (penetrates(problem, a)) return;
     const std::vector<char> held(problem.bodies(), 0);
@@ -111,6 +112,16 @@ TEST(Search, FixesOnlyWhatNothingElseHolds) {
   EXPECT_EQ(choice.cost.volume, 0.0);
 }
 
+TEST(Search, RatherFixesATopToItsLegThanTheLegToTheGround) {
+  // Two legs as thin as boards under a top: one fixed contact keeps them from falling over when pushed, and any would do.
+  const Problem problem =
+      problem_of({cuboid({-0.5, 0, 0.35}, {0.04, 0.7, 0.7}), cuboid({0.5, 0, 0.35}, {0.04, 0.7, 0.7}), cuboid({0, 0, 0.72}, {1.4, 0.8, 0.04})}, 0.0, 0.2);
+  const Choice choice = search(problem);
+  EXPECT_TRUE(choice.optimal);
+  ASSERT_EQ(choice.cost.fixed, 1);
+  for (const int h : choice.chosen) EXPECT_FALSE(problem.is_support(problem.hypotheses[h].a));
+}
+
 TEST(Search, CallsUnsupportedWhatNothingCanHold) {
   const Problem problem = problem_of({cuboid({0, 0, 0.1}, {0.2, 0.2, 0.2}), cuboid({2, 0, 0.9}, {0.1, 0.1, 0.1})}, 0.0);
   const Choice choice = search(problem);
@@ -146,6 +157,7 @@ TEST(Search, EqualsBruteForce) {
     EXPECT_TRUE(choice.optimal);
     EXPECT_EQ(choice.cost.fixed, brute.best.fixed) << scene;
     EXPECT_NEAR(choice.cost.volume, brute.best.volume, 1e-8) << scene;
+    EXPECT_EQ(choice.cost.grounded, brute.best.grounded) << scene;
     extended += choice.cost.volume > 0.0;
     fixed += choice.cost.fixed > 0;
   }
