@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "cuboids/box_fit.h"
@@ -13,7 +15,7 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr std::size_t kFewestPiecePoints = 80;
+constexpr double kFewestPiecePoints = 80.0;
 constexpr double kSmallestPiece = 0.02;  // of the points that are cut
 constexpr double kKept = 0.95;           // of these points: a cut along a noisy surface crumbles it
 constexpr double kHollow = 0.08;         // of a hull's volume: less free space is noise or a rounded edge
@@ -28,60 +30,83 @@ constexpr int kFewestFlatPoints = 24;
 constexpr int kFirstCuts = 16, kFinerCuts = 4;
 const double kParallelCosine = std::cos(radians(10.0));
 
+/// Groups of connected members among 0 … count − 1 that lie on the same side (1 or 2) each; sides are spent.
+template <typename Neighbours>
+std::vector<std::vector<int>> connected(std::span<const int> members, std::vector<signed char>& side, const Neighbours& neighbours) {
+  std::vector<std::vector<int>> groups;
+  for (const int start : members) {
+    if (side[start] == 0) continue;
+    const signed char own = side[start];
+    std::vector<int>& group = groups.emplace_back(1, start);
+    side[start] = 0;
+    for (std::size_t k = 0; k < group.size(); ++k)
+      for (const int j : neighbours(group[k]))
+        if (side[j] == own) side[j] = 0, group.push_back(j);
+  }
+  return groups;
+}
+
+double fewest_points(std::size_t all) { return std::max(kFewestPiecePoints, kSmallestPiece * static_cast<double>(all)); }
+
 /// Connected pieces of some points on either side of a plane; those too small to tell are left out.
 std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, const std::vector<int>& points, const Plane& plane,
                           std::vector<signed char>& side) {
   for (const int i : points) side[i] = plane.signed_distance(seen.points[i]) < 0.0 ? 1 : 2;
-  const std::size_t fewest = std::max(kFewestPiecePoints, static_cast<std::size_t>(kSmallestPiece * static_cast<double>(points.size())));
   std::vector<Piece> pieces;
-  for (const int start : points) {
-    if (side[start] == 0) continue;
-    const signed char own = side[start];
-    std::vector<int> members{start};
-    side[start] = 0;
-    for (std::size_t k = 0; k < members.size(); ++k)
-      for (const int j : seen.graph.neighbours(members[k]))
-        if (side[j] == own) side[j] = 0, members.push_back(j);
-    if (members.size() < fewest) continue;
-    std::sort(members.begin(), members.end());
-    pieces.push_back(piece_of(seen, interior, std::move(members)));
+  for (std::vector<int>& group : connected(points, side, [&](int i) { return seen.graph.neighbours(i); })) {
+    if (static_cast<double>(group.size()) < fewest_points(points.size())) continue;
+    std::sort(group.begin(), group.end());
+    pieces.push_back(piece_of(seen, interior, std::move(group)));
   }
   return pieces;
 }
 
-double free_of(const std::vector<Piece>& pieces) {
-  double sum = 0;
-  for (const Piece& piece : pieces) sum += piece.free;
-  return sum;
+/// Free space that a cut of clumps leaves within the pieces' hulls, and the price of these; infinite for what is no cut.
+double left_by_cut(const Interior& interior, const Clumps& clumps, const Piece& whole, const Plane& plane) {
+  std::vector<int> all(clumps.centers.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<signed char> side;
+  for (const Vec3& center : clumps.centers) side.push_back(plane.signed_distance(center) < 0.0 ? 1 : 2);
+  int pieces = 0, kept = 0;
+  double left = 0;
+  for (const std::vector<int>& group : connected(all, side, [&](int k) -> const std::vector<int>& { return clumps.neighbours[k]; })) {
+    int count = 0;
+    Hull hull;
+    for (const int k : group) count += clumps.counts[k], hull.add(clumps.hulls[k]);
+    if (count < fewest_points(whole.points.size())) continue;
+    ++pieces;
+    kept += count;
+    left += hollow_of(interior, hull).free + kPrice * whole.hollow.within;
+  }
+  return pieces < 2 || kept < kKept * static_cast<double>(whole.points.size()) ? std::numeric_limits<double>::infinity() : left;
 }
 
 /// The cut that leaves the least free space within the pieces' hulls: across one of the axes, or along what is seen of a face.
-std::vector<Piece> best_cut(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const Piece& whole, std::vector<signed char>& side) {
+std::optional<Plane> best_cut(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const Piece& whole) {
+  const Clumps clumps = clumps_of(seen, interior, whole.points);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const int i : whole.points) {
     const Vec3 p = interior.axes.transpose() * seen.points[i];
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  std::vector<Piece> best;
+  std::optional<Plane> best;
   double least = std::numeric_limits<double>::infinity();
-  Plane at;
   const auto attempt = [&](const Plane& plane) {
-    std::vector<Piece> pieces = cut_at(seen, interior, whole.points, plane, side);
-    std::size_t kept = 0;
-    for (const Piece& piece : pieces) kept += piece.points.size();
-    if (pieces.size() < 2 || static_cast<double>(kept) < kKept * static_cast<double>(whole.points.size())) return;
-    const double left = free_of(pieces) + static_cast<double>(pieces.size()) * kPrice * whole.within;
-    if (left < least) least = left, best = std::move(pieces), at = plane;
+    if (const double left = left_by_cut(interior, clumps, whole, plane); left < least) least = left, best = plane;
   };
   for (const Plane& plane : planes) attempt(plane);
   for (int axis = 0; axis < 3; ++axis)
     for (int k = 1; k < kFirstCuts; ++k) attempt({interior.axes.col(axis), low[axis] + (high[axis] - low[axis]) * k / kFirstCuts});
-  if (best.empty()) return best;
-  const Plane middle = at;
+  if (!best) return best;
+  const Plane middle = *best;
   const double step = (interior.axes.transpose() * middle.normal).cwiseAbs().dot(high - low) / kFirstCuts / kFinerCuts;
   for (int k = -kFinerCuts + 1; k < kFinerCuts; ++k) attempt({middle.normal, middle.offset + step * k});
   return best;
+}
+
+double free_of(const std::vector<Piece>& pieces) {
+  return std::accumulate(pieces.begin(), pieces.end(), 0.0, [](double sum, const Piece& piece) { return sum + piece.hollow.free; });
 }
 
 /// Pieces that one hull may hold as well are one again.
@@ -102,7 +127,7 @@ void join_pieces(const Observation& seen, const Interior& interior, std::vector<
       points.insert(points.end(), pieces[b].points.begin(), pieces[b].points.end());
       std::sort(points.begin(), points.end());
       Piece both = piece_of(seen, interior, std::move(points));
-      if (both.free > pieces[a].free + pieces[b].free + kPrice * both.within) continue;
+      if (both.hollow.free > pieces[a].hollow.free + pieces[b].hollow.free + kPrice * both.hollow.within) continue;
       pieces[a] = std::move(both);
       pieces.erase(pieces.begin() + b);
       again = true;
@@ -141,9 +166,11 @@ std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, 
     context.check();
     Piece piece = std::move(open.back());
     open.pop_back();
+    const bool hollow_enough = piece.hollow.free > hollow * piece.hollow.within;
+    const auto plane = hollow_enough ? best_cut(seen, interior, planes, piece) : std::nullopt;
     std::vector<Piece> cut;
-    if (piece.free >= hollow * piece.within) cut = best_cut(seen, interior, planes, piece, side);
-    if (cut.empty() || free_of(cut) > (1.0 - kLeastSaving) * piece.free) done.push_back(std::move(piece));
+    if (plane) cut = cut_at(seen, interior, piece.points, *plane, side);
+    if (cut.size() < 2 || free_of(cut) > (1.0 - kLeastSaving) * piece.hollow.free) done.push_back(std::move(piece));
     else open.insert(open.end(), std::make_move_iterator(cut.begin()), std::make_move_iterator(cut.end()));
   }
   join_pieces(seen, interior, done);

@@ -18,6 +18,10 @@ class Hull {
     low_ = low_.min(h);
     high_ = high_.max(h);
   }
+  void add(const Hull& other) {
+    low_ = low_.min(other.low_);
+    high_ = high_.max(other.high_);
+  }
   bool contains(const Vec3& p) const {
     const Heights h = heights(p);
     return (h > low_).all() && (h < high_).all();
@@ -39,18 +43,31 @@ struct Interior {
   Mat3 axes;                           ///< of the hull's main directions, as columns
   std::span<const int> face_of_point;  ///< −1 = none: what flies about an edge spans no hull
   std::vector<Vec3> cells;             ///< centres, in the coordinates of the axes
-  std::vector<char> is_free;           ///< of a cell: seen free, farther before any surface than its noise and warps reach
+  std::vector<char> is_free;           ///< of a cell: seen free, also a pixel aside, and farther before any surface than its noise and warps reach
 };
 
 Interior look_into(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const int> face_of_point, const Mat3& axes);
 
-/// Some of the points, and the cells of the interior that are within their hull.
+/// How many cells of an interior are within a hull.
+struct Hollow {
+  double within = 0, free = 0;
+};
+Hollow hollow_of(const Interior& interior, const Hull& hull);
+
+/// Some of the points.
 struct Piece {
   std::vector<int> points;
-  Hull hull;
-  double within = 0, free = 0;  ///< numbers of cells
+  Hollow hollow;
 };
-
 Piece piece_of(const Observation& seen, const Interior& interior, std::vector<int> points);
+
+/// Points of a piece that lie together on one face are one clump: what takes long is tried with these.
+struct Clumps {
+  std::vector<Vec3> centers;  ///< world
+  std::vector<Hull> hulls;
+  std::vector<int> counts;  ///< of points
+  std::vector<std::vector<int>> neighbours;
+};
+Clumps clumps_of(const Observation& seen, const Interior& interior, std::span<const int> points);
 
 }  // namespace unseen::cuboids
