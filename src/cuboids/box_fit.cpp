@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "cuboids/outline.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -168,8 +170,8 @@ Mat3 free_axes(const Observation& seen, std::vector<const Face*> faces) {
   return axes;
 }
 
-Mat3 level_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces) {
-  // Turns of upright faces count modulo a quarter: sum unit vectors at four times the angle.
+/// What upright faces tell of the turn of a level box.
+Vec2 turn_of_faces(const Observation& seen, std::span<const Face* const> faces) {
   Vec2 sum = Vec2::Zero();
   for (const Face* face : faces) {
     const Vec3& n = face->plane.normal;
@@ -177,16 +179,22 @@ Mat3 level_axes(const Observation& seen, std::span<const int> points, std::span<
     const Vec3 along = Vec3::UnitZ().cross(n).normalized();
     if (spread_along(seen, *face, along) * std::sqrt(12.0) < kShortestForYaw) continue;
     const double error = direction_error(seen, *face, along).all();
-    const double information = 1.0 / (error * error);
-    const double angle = 4.0 * std::atan2(n.y(), n.x());
-    sum += information * Vec2(std::cos(angle), std::sin(angle));
+    sum += quarter_turn(std::atan2(n.y(), n.x()), 1.0 / (error * error));
   }
-  double yaw = 0.25 * std::atan2(sum.y(), sum.x());
-  if (sum.norm() < kEnoughInformation) {
+  return sum;
+}
+
+Mat3 level_axes(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces) {
+  const auto angle = [](const Vec2& sum) { return 0.25 * std::atan2(sum.y(), sum.x()); };
+  const Vec2 turn = turn_of_faces(seen, faces);
+  double yaw = angle(turn);
+  if (turn.norm() < kEnoughInformation) {
     std::vector<Vec2> flat;
     for (const int i : points) flat.emplace_back(seen.points[i].x(), seen.points[i].y());
     yaw = rectangle_turn(flat);
   }
+  const Vec2 outline = turn_of_outline(seen, view, faces, yaw);
+  if (!outline.isZero()) yaw = angle(turn + outline);
   return leant(seen, points, faces, turned(std::remainder(yaw, 0.5 * kPi)));
 }
 
@@ -199,11 +207,11 @@ double explained_share(std::span<const int> points, std::span<const Face* const>
   return static_cast<double>(count) / static_cast<double>(points.size());
 }
 
-Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation) {
-  if (faces.empty()) return level_axes(seen, points, faces);
+Mat3 box_axes(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation) {
+  if (faces.empty()) return level_axes(seen, view, points, faces);
   const Mat3 free = free_axes(seen, {faces.begin(), faces.end()});
   if (free_orientation) return free;
-  const Mat3 level = level_axes(seen, points, faces);
+  const Mat3 level = level_axes(seen, view, points, faces);
   const double share = explained_share(points, faces, free);
   if (share < kEnoughExplained || share < explained_share(points, faces, level) + kMuchMore) return level;
   const bool leans = std::any_of(faces.begin(), faces.end(), [&](const Face* face) { return leans_from(seen, *face, kSlantSigmas).has_value(); });

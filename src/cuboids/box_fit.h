@@ -14,7 +14,7 @@ namespace unseen::cuboids {
 /// Directions of a box's edges, the third the one closest to up. Free orientation: those of the two largest orthogonal
 /// faces. Else up-aligned, with the yaw of the upright faces or of the rectangle of least area around the points, turned
 /// to the largest face where that clearly leans; unless the faces that were seen clearly follow the free axes instead.
-Mat3 box_axes(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation);
+Mat3 box_axes(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation);
 
 /// Share of the points that lie on faces across one of the axes.
 double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes);

@@ -90,7 +90,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     context.check();
     const ObjectPart& part = parts[k];
     const double voxel = std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest);
-    const Mat3 axes = box_axes(seen, part.points, faces_of[k], part.free_orientation);
+    const Mat3 axes = box_axes(seen, view, part.points, faces_of[k], part.free_orientation);
     const OrientedBox box = bound(seen, part.points, faces_of[k], axes, voxel);
     const OrientedBox standing = set_down(seen, part.points, box);
     if (filled_share(view, standing, voxel) >= options.fill) {

@@ -89,7 +89,8 @@ bool stands(const Problem& problem, const Arrangement& arrangement, const std::v
 
 void complete_boxes(const RgbdFrame& frame, const Options& options, Context& context, Completion& result) {
   Summary& summary = result.summary;
-  const DepthView view(frame, result.T_world_camera, depth_noise(frame, options));
+  result.depth_noise = depth_noise(frame, options);
+  const DepthView view(frame, result.T_world_camera, result.depth_noise);
   Problem problem;
   Rooms rooms;
   problem.friction = options.friction;
@@ -163,8 +164,9 @@ Completion complete_cuboids(const RgbdFrame& frame, const Completion& scene, con
   start.supports = scene.supports;
   start.cuboids = scene.cuboids;
   return run_cuboids(context, std::move(start), [&](Completion& result) {
-    realign(frame, options, result, context);
-    complete_boxes(frame, options, context, result);
+    const Options exact = with_depth_noise(frame, options, context);
+    realign(frame, exact, result, context);
+    complete_boxes(frame, exact, context, result);
   });
 }
 

@@ -42,8 +42,9 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
 
 Completion complete_cuboids(const RgbdFrame& frame, const Options& options, Context& context) {
   return run_cuboids(context, {}, [&](Completion& result) {
-    perceive(frame, options, context, result);
-    complete_boxes(frame, options, context, result);
+    const Options exact = with_depth_noise(frame, options, context);
+    perceive(frame, exact, context, result);
+    complete_boxes(frame, exact, context, result);
   });
 }
 

@@ -19,13 +19,13 @@ constexpr double kFewestPiecePoints = 80.0;
 constexpr double kSmallestPiece = 0.02;  // of the points that are cut
 constexpr double kKept = 0.95;           // of these points: a cut along a noisy surface crumbles it
 constexpr double kHollow = 0.08;         // of a hull's volume: less free space is noise or a rounded edge
-constexpr double kHollowStep = 0.03;     // beside a step
+constexpr double kHollowStep = 0.02;     // beside a step
 constexpr double kLargeFace = 0.05;      // of a part's points
 constexpr double kStepSigmas = 5.0;
 constexpr double kBeforeFaceSigmas = 3.0;
 constexpr double kLeastSaving = 1.0 / 3.0;  // of the free space within the hull
 constexpr double kPrice = 0.02;             // of a hull: free space that one more piece must save
-constexpr double kFlat = 0.9;               // of the points, on sides of boxes
+constexpr double kFlat = 0.85;              // of the points, on sides of boxes
 constexpr int kFewestFlatPoints = 24;
 constexpr int kFirstCuts = 16, kFinerCuts = 4;
 const double kParallelCosine = std::cos(radians(10.0));
@@ -195,13 +195,13 @@ GroupedFaces faces_of(const Observation& seen, const Groups& groups) {
 }
 
 /// Whether nearly all of what was seen of the pieces are sides of boxes.
-bool are_boxes(const Observation& seen, const std::vector<Piece>& pieces) {
+bool are_boxes(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces) {
   const GroupedFaces faces = faces_of(seen, pieces);
   double all = 0, explained = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const double count = static_cast<double>(pieces[k].points.size());
     all += count;
-    explained += count * explained_share(pieces[k].points, faces.of_group[k], box_axes(seen, pieces[k].points, faces.of_group[k], false));
+    explained += count * explained_share(pieces[k].points, faces.of_group[k], box_axes(seen, view, pieces[k].points, faces.of_group[k], false));
   }
   return explained >= kFlat * all;
 }
@@ -216,13 +216,13 @@ std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthVie
     ObjectPart& part = parts[k];
     std::vector<Piece> pieces;
     if (part.label.empty()) {
-      const Mat3 axes = box_axes(seen, part.points, faces.of_group[k], part.free_orientation);
+      const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], part.free_orientation);
       const Interior interior = look_into(seen, view, part.points, faces.faces.face_of_point, axes);
       const std::vector<Plane> planes = planes_before(seen, faces.of_group[k], part.points.size());
       const double hollow = has_steps(seen, faces.of_group[k], part.points.size()) ? kHollowStep : kHollow;
       pieces = cut_apart(seen, interior, planes, part.points, hollow, context);
     }
-    if (pieces.size() < 2 || !are_boxes(seen, pieces)) result.push_back(std::move(part));
+    if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) result.push_back(std::move(part));
     else
       for (Piece& piece : pieces) result.push_back({std::move(piece.points), part.label, part.free_orientation});
   }

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/depth_noise.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -12,45 +14,95 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kKinect = 0.0015;        // m
-constexpr double kBest = 0.0002;          // m
+constexpr double kBest = 0.0006;          // m: with less, what is no wider than a pixel would count
+constexpr double kCoarsest = 0.01;        // m
 constexpr int kPatch = 25;                // pixels wide: sensors smooth what is nearer, and their warps count too
 constexpr double kMeasuredShare = 0.8;    // of a patch
 constexpr std::size_t kFewestPatches = 20;
-constexpr double kFlatShare = 0.25;        // of the patches; the others hold edges and curved surfaces
+constexpr double kFlatShare = 0.25;       // of the patches; the others hold edges and curved surfaces
 constexpr double kWarps = 1.3;            // errors of wider reach, by which sensors are worse than their patches say
+constexpr double kSmooth = 0.5;           // correlation of neighbours: noise has little
+constexpr double kExact = 1e-5;           // m: no noise to be correlated, and no step
+constexpr double kOffStep = 0.05;         // of a step
 
-/// rms distance of 1/depth from its regression plane: that of a disparity sensor is the same at any depth, and σ at 1 m.
-std::optional<double> patch_noise(const RgbdFrame& frame, int left, int top) {
+struct Patch {
+  double noise = 0;        ///< m at 1 m: rms distance of 1/depth from its regression plane, which a disparity sensor has the same at any depth
+  double correlation = 0;  ///< of that of neighbours
+  double step = 0;         ///< m at 1 m: standard deviation of what is rounded to the depths that occur
+};
+
+double squared(double x) { return x * x; }
+
+/// m: the width of the steps that depths come in; 0 = in none.
+double step_of(std::vector<double> depths) {
+  std::sort(depths.begin(), depths.end());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < depths.size(); ++i)
+    if (const double gap = depths[i] - depths[i - 1]; gap > kExact) gaps.push_back(gap);
+  if (gaps.empty()) return 0.0;
+  const double least = *std::min_element(gaps.begin(), gaps.end());
+  return std::all_of(gaps.begin(), gaps.end(), [&](double gap) { return std::abs(gap / least - std::round(gap / least)) < kOffStep; }) ? least : 0.0;
+}
+
+std::optional<Patch> patch_at(const RgbdFrame& frame, int left, int top) {
+  std::vector<Vec3> rows;
+  std::vector<double> inverse, depths;
   Mat3 normal = Mat3::Zero();
   Vec3 right = Vec3::Zero();
-  double squares = 0, count = 0;
   for (int y = 0; y < kPatch; ++y)
     for (int x = 0; x < kPatch; ++x) {
       const double depth = frame.depth[static_cast<std::size_t>(top + y) * frame.camera.width + left + x];
       if (!(depth > 0.0) || !std::isfinite(depth)) continue;
-      const Vec3 row(x - kPatch / 2, y - kPatch / 2, 1.0);
-      normal += row * row.transpose();
-      right += row / depth;
-      squares += 1.0 / (depth * depth);
-      count += 1.0;
+      rows.emplace_back(x - kPatch / 2, y - kPatch / 2, 1.0);
+      inverse.push_back(1.0 / depth);
+      depths.push_back(depth);
+      normal += rows.back() * rows.back().transpose();
+      right += rows.back() * inverse.back();
     }
+  const double count = static_cast<double>(rows.size());
   if (count < kMeasuredShare * kPatch * kPatch) return std::nullopt;
-  const double rest = squares - right.dot(normal.ldlt().solve(right));
-  return std::sqrt(std::max(rest, 0.0) / (count - 3.0));
+  const Vec3 plane = normal.ldlt().solve(right);
+  double squares = 0, products = 0, before = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double rest = inverse[i] - plane.dot(rows[i]);
+    squares += rest * rest;
+    products += rest * before;
+    before = rest;
+  }
+  Patch patch{std::sqrt(squares / (count - 3.0)), squares > 0.0 ? products / squares : 0.0, 0.0};
+  patch.step = step_of(depths) / std::sqrt(12.0) * squared(inverse[inverse.size() / 2]);
+  return patch;
+}
+
+double quantile(const std::vector<Patch>& patches, double Patch::* value, double share) {
+  std::vector<double> values;
+  for (const Patch& patch : patches) values.push_back(patch.*value);
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 }  // namespace
 
 double depth_noise(const RgbdFrame& frame, const Options& options) {
   if (options.noise) return *options.noise;
-  std::vector<double> noises;
+  std::vector<Patch> patches;
   for (int top = 0; !frame.is_fused() && top + kPatch <= frame.camera.height; top += kPatch)
     for (int left = 0; left + kPatch <= frame.camera.width; left += kPatch)
-      if (const auto noise = patch_noise(frame, left, top)) noises.push_back(*noise);
-  if (noises.size() < kFewestPatches) return kKinect;
-  const auto flat = noises.begin() + static_cast<std::ptrdiff_t>(kFlatShare * static_cast<double>(noises.size()));
-  std::nth_element(noises.begin(), flat, noises.end());
-  return std::clamp(kWarps * *flat, kBest, kKinect);
+      if (const auto patch = patch_at(frame, left, top)) patches.push_back(*patch);
+  if (patches.size() < kFewestPatches) return kKinect;
+  const double flattest = quantile(patches, &Patch::noise, kFlatShare), step = std::min(quantile(patches, &Patch::step, 0.5), kCoarsest);
+  std::erase_if(patches, [&](const Patch& patch) { return patch.noise > flattest; });
+  const bool smoothed = flattest > kExact && quantile(patches, &Patch::correlation, 0.5) > kSmooth;
+  return std::max(smoothed ? kKinect : std::clamp(kWarps * flattest, kBest, kKinect), step);
+}
+
+Options with_depth_noise(const RgbdFrame& frame, Options options, Context& context) {
+  const bool measured = !options.noise;
+  options.noise = depth_noise(frame, options);
+  if (measured && *options.noise > kKinect)
+    context.warn(fmt::format("the depth comes in coarse steps, as wide as noise of {:.1f} mm at 1 m: boxes are no more exact", 1000.0 * *options.noise));
+  return options;
 }
 
 }  // namespace unseen::cuboids

@@ -11,12 +11,12 @@ namespace {
 
 constexpr int kMostFreeCells = 24;  // an axis
 constexpr double kFreeCellSigmas = 3.0;
-constexpr double kClumpsAcross = 32.0;
+constexpr double kClumpsAcross = 64.0;
 constexpr double kDeepSigmas = 4.0;  // before a surface, beyond the sensor's noise: its warps
 
 bool is_clearly_free(const DepthView& view, const Vec3& place, double margin) {
   const Vec3 ray = (place - view.viewpoint()).normalized(), u = any_orthogonal(ray), v = ray.cross(u), behind = place + margin * ray;
-  const double aside = view.spacing(place);
+  const double aside = 0.5 * view.spacing(place);
   for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(aside * u), Vec3(-aside * u), Vec3(aside * v), Vec3(-aside * v)})
     if (view.at(behind + offset) != DepthView::Space::free) return false;
   return true;

@@ -10,7 +10,7 @@
 
 namespace unseen::cuboids {
 
-/// The least polytope with 26 sides of given directions around points: nearly their convex hull.
+/// The least polytope with 34 sides of given directions around points: nearly their convex hull, above all where they are turned about the third axis.
 class Hull {
  public:
   void add(const Vec3& p) {
@@ -28,11 +28,11 @@ class Hull {
   }
 
  private:
-  using Heights = Eigen::Array<double, 13, 1>;
+  using Heights = Eigen::Array<double, 17, 1>;
   static Heights heights(const Vec3& p) {
-    const double x = p.x(), y = p.y(), z = p.z();
+    const double x = p.x(), y = p.y(), z = p.z(), s = 0.41421356;  // tangent of 22.5 degrees
     Heights h;
-    h << x, y, z, x + y, x - y, x + z, x - z, y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z;
+    h << x, y, z, x + y, x - y, x + s * y, x - s * y, s * x + y, s * x - y, x + z, x - z, y + z, y - z, x + y + z, x + y - z, x - y + z, x - y - z;
     return h;
   }
   Heights low_ = Heights::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
@@ -43,7 +43,7 @@ struct Interior {
   Mat3 axes;                           ///< of the hull's main directions, as columns
   std::span<const int> face_of_point;  ///< −1 = none: what flies about an edge spans no hull
   std::vector<Vec3> cells;             ///< centres, in the coordinates of the axes
-  std::vector<char> is_free;           ///< of a cell: seen free, also a pixel aside, and farther before any surface than its noise and warps reach
+  std::vector<char> is_free;           ///< of a cell: seen free, also half a pixel aside, and farther before any surface than its noise and warps reach
 };
 
 Interior look_into(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const int> face_of_point, const Mat3& axes);

@@ -85,6 +85,7 @@ Arrangement arrange(const Problem& problem, const std::vector<int>& chosen) {
     out.extended_volume += out.boxes.back().volume() - problem.cuboids[i].initial.volume();
   }
   std::sort(out.fixed.begin(), out.fixed.end());
+  out.fixed.erase(std::unique(out.fixed.begin(), out.fixed.end()), out.fixed.end());
   return out;
 }
 

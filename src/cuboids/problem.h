@@ -72,7 +72,10 @@ struct Arrangement {
   std::vector<std::array<int, 2>> fixed;  ///< pairs of bodies, ordered, the joints among them
   double extended_volume = 0;           ///< m³
 
-  void fix(const std::array<int, 2>& pair) { fixed.insert(std::upper_bound(fixed.begin(), fixed.end(), pair), pair); }
+  void fix(const std::array<int, 2>& pair) {
+    const auto at = std::lower_bound(fixed.begin(), fixed.end(), pair);
+    if (at == fixed.end() || *at != pair) fixed.insert(at, pair);
+  }
 };
 
 /// Boxes after the moves of the chosen hypotheses; where several move one face, the longest move counts.

@@ -82,8 +82,8 @@ std::optional<Mat3> as_given(const Mat3& axes, const Mat3& given) {
   return out;
 }
 
-OrientedBox fitted(const Observation& seen, const std::vector<int>& points, const std::vector<const Face*>& faces, OrientedBox box) {
-  const auto axes = as_given(box_axes(seen, points, faces, false), box.axes);
+OrientedBox fitted(const Observation& seen, const DepthView& view, const std::vector<int>& points, const std::vector<const Face*>& faces, OrientedBox box) {
+  const auto axes = as_given(box_axes(seen, view, points, faces, false), box.axes);
   if (!axes) return box;
   box.axes = *axes;
   double sigma = 0;
@@ -113,6 +113,7 @@ double unexplained(const Observation& seen, const std::vector<int>& points, cons
 
 void realign(const RgbdFrame& frame, const Options& options, Completion& scene, Context& context) {
   const Observation seen = observed(frame, scene, options, context);
+  const DepthView view(frame, scene.T_world_camera, depth_noise(frame, options));
   for (const double reach : kReach) {
     context.check();
     const std::vector<int> box_of = nearest_boxes(seen, scene.cuboids, reach, context);
@@ -125,7 +126,7 @@ void realign(const RgbdFrame& frame, const Options& options, Completion& scene, 
     for (std::size_t k = 0; k < scene.cuboids.size(); ++k) {
       if (points[k].size() < kFewestPoints) continue;
       OrientedBox& box = scene.cuboids[k].initial;
-      const OrientedBox again = fitted(seen, points[k], sides[k], box);
+      const OrientedBox again = fitted(seen, view, points[k], sides[k], box);
       if (unexplained(seen, points[k], again) < kExplainsMore * unexplained(seen, points[k], box)) box = again;
     }
   }

@@ -45,6 +45,7 @@ Json contact_of(const cuboids::Contact& c) {
 std::string cuboids_json(const cuboids::Completion& c, const InputRecord& input, const OptionTable& options) {
   Json json = result_header("cuboids", input, options, c.summary);
   json["T_world_camera"] = matrix_of(c.T_world_camera);
+  json["depth_noise"] = number(c.depth_noise);
   json["supports"] = list_of(c.supports, [](const auto& s, std::size_t) { return support_of(s); });
   json["cuboids"] = list_of(c.cuboids, [](const auto& cuboid, std::size_t) { return cuboid_of(cuboid); });
   json["contacts"] = list_of(c.contacts, [](const auto& contact, std::size_t) { return contact_of(contact); });

@@ -79,6 +79,7 @@ cuboids::Completion parse_cuboids_result(const std::string& text, const std::str
   Ids ids;
   c.summary = read_summary(json["summary"], text);
   c.T_world_camera = read_transform(json["T_world_camera"]);
+  if (json.has("depth_noise")) c.depth_noise = json["depth_noise"].number(0);
   for (const JsonField& field : json["supports"].list()) c.supports.push_back(support(field, ids));
   const Ids supports = ids;
   for (const JsonField& field : json["cuboids"].list()) c.cuboids.push_back(cuboid(field, ids));
@@ -101,7 +102,7 @@ cuboids::Completion parse_cuboids_result(const std::string& text, const std::str
     }
   };
   read_cuboid_ids(json["unsupported"], c.unsupported);
-  read_cuboid_ids(json["held_outside"], c.held_outside);
+  if (json.has("held_outside")) read_cuboid_ids(json["held_outside"], c.held_outside);
   c.search = {search["nodes"].count(), search["pruned"].count(), search["optimal"].truth()};
   return c;
 }

@@ -89,6 +89,7 @@ Json facts_of(const Completion& c, const OptionTable& options) {
   fact("friction needed", fmt::format("{:.2f} of {}", c.stability.friction_needed, options.text_of("friction")));
   fact("residual", fmt::format("{:.2g}", c.stability.residual));
   fact("fewest fixed contacts", c.search.optimal ? "proven" : "not proven");
+  if (c.depth_noise > 0.0) fact("noise of the depth", fmt::format("{:.2g} mm at 1 m", 1000.0 * c.depth_noise));
   if (!c.unsupported.empty()) fact("unsupported", std::to_string(c.unsupported.size()));
   if (!c.held_outside.empty()) fact("held outside the picture", std::to_string(c.held_outside.size()));
   return facts;

@@ -53,27 +53,26 @@ TEST(Cuts, WhatAMaskNamesStaysWhole) {
   for (const Cuboid& cuboid : p.fitted) EXPECT_EQ(cuboid.object, p.fitted.front().object);
 }
 
-TEST(DepthNoise, OfABetterSensorIsMeasured) {
+TEST(Cuts, BoxesTurnedOnEachOtherAreCutOnceEach) {  // in the axes of one, the hull of the other holds little that is free
   Scene scene;
-  scene.boxes = {upright(-0.15, 0.9, 0, {0.2, 0.15, 0.1}, 20)};
-  for (const double noise : {0.0003, 0.0006, 0.001}) {
-    scene.noise = noise;
-    const double found = depth_noise(render(scene), {});
-    EXPECT_GT(found, noise);
-    EXPECT_LT(found, 1.5 * noise);
-  }
-  scene.noise = 0.004;
-  EXPECT_EQ(depth_noise(render(scene), {}), 0.0015);
-  Options given;
-  given.noise = 0.01;
-  EXPECT_EQ(depth_noise(render(scene), given), 0.01);
+  scene.noise = 0.0008;
+  scene.boxes = {upright(0, 0.9, 0, {0.28, 0.24, 0.12}, 5), upright(0, 0.9, 0.12, {0.2, 0.2, 0.12}, 28)};
+  const Perceived p = perceive(render(scene));
+  EXPECT_EQ(p.fitted.size(), 2u);
 }
 
-TEST(DepthNoise, OfNextToNothingIsThatOfAKinect) {
-  RgbdFrame frame = render(Scene());
-  for (std::size_t i = 0; i < frame.depth.size(); ++i)
-    if (i % 3 != 0) frame.depth[i] = 0.0f;
-  EXPECT_EQ(depth_noise(frame, {}), 0.0015);
+TEST(Cuts, AnExactBoxStaysWhole) {  // of a few pixels, each far wider than the noise
+  Scene scene;
+  scene.noise = 0.0;
+  scene.boxes = {upright(0.1, 2.5, 0, {0.28, 0.1, 0.57}, 25)};
+  scene.height = 1.2;
+  scene.pitch = radians(20.0);
+  scene.width = 320;
+  scene.image_height = 240;
+  scene.focal = 260;
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.fitted.size(), 1u);
+  EXPECT_LT(size_error(p.fitted[0].box, scene.boxes[0]), 0.03);
 }
 
 }  // namespace

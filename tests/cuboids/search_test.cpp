@@ -122,6 +122,18 @@ TEST(Search, RatherFixesATopToItsLegThanTheLegToTheGround) {
   for (const int h : choice.chosen) EXPECT_FALSE(problem.is_support(problem.hypotheses[h].a));
 }
 
+TEST(Search, PiecesOfOneObjectAreFixedOnce) {
+  Problem problem = problem_of({cuboid({0, 0, 0.1}, {0.2, 0.2, 0.2}), cuboid({0, 0, 0.25}, {0.1, 0.1, 0.1})}, 0.0);
+  problem.joints = {{1, 2}};
+  std::vector<int> all;
+  for (std::size_t h = 0; h < problem.hypotheses.size(); ++h)
+    if (problem.hypotheses[h].a == 1 && problem.hypotheses[h].b == 2 && problem.hypotheses[h].kind == ContactKind::fixed) all.push_back(static_cast<int>(h));
+  ASSERT_FALSE(all.empty());
+  Arrangement arrangement = arrange(problem, all);
+  arrangement.fix({1, 2});
+  EXPECT_EQ(arrangement.fixed.size(), 1u);
+}
+
 TEST(Search, CallsUnsupportedWhatNothingCanHold) {
   const Problem problem = problem_of({cuboid({0, 0, 0.1}, {0.2, 0.2, 0.2}), cuboid({2, 0, 0.9}, {0.1, 0.1, 0.1})}, 0.0);
   const Choice choice = search(problem);

@@ -65,6 +65,7 @@ struct SearchReport {
 /// A scene in static equilibrium. World coordinates: z up, z = 0 on the ground support, the origin below the camera.
 struct Completion {
   RigidTransform T_world_camera;
+  double depth_noise = 0;  ///< m: σ of the depth at 1 m, as given or measured; 0 without a frame
   std::vector<Support> supports;
   std::vector<Cuboid> cuboids;
   std::vector<Contact> contacts;
