@@ -25,7 +25,7 @@ constexpr double kStepSigmas = 5.0;
 constexpr double kBeforeFaceSigmas = 3.0;
 constexpr double kLeastSaving = 1.0 / 3.0;  // of the free space within the hull
 constexpr double kPrice = 0.02;             // of a hull: free space that one more piece must save
-constexpr double kFlat = 0.85;              // of the points, on sides of boxes
+constexpr double kFlat = 0.9;               // of the points, on sides of boxes
 constexpr int kFewestFlatPoints = 24;
 constexpr int kFirstCuts = 16, kFinerCuts = 4;
 const double kParallelCosine = std::cos(radians(10.0));
