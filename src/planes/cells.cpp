@@ -28,16 +28,17 @@ Moments gather(const VoxelGrid& grid, std::size_t voxel, const Vec3& center, dou
   grid.for_neighbours(voxel, 2, [&](int i) {
     const Moments& m = grid.moments[i];
     const Vec3 d = m.mean - center;
-    if (d.squaredNorm() > radius * radius) return;
-    const Vec3 sum = m.count * d;
-    n += m.count;
+    const double inside = d.squaredNorm() > radius * radius ? 0.0 : 1.0;  // no jump: as many lie in as out
+    const double count = inside * m.count;
+    const Vec3 sum = count * d;
+    n += count;
     first += sum;
-    xx += m.scatter(0, 0) + sum.x() * d.x();
-    xy += m.scatter(1, 0) + sum.x() * d.y();
-    xz += m.scatter(2, 0) + sum.x() * d.z();
-    yy += m.scatter(1, 1) + sum.y() * d.y();
-    yz += m.scatter(2, 1) + sum.y() * d.z();
-    zz += m.scatter(2, 2) + sum.z() * d.z();
+    xx += inside * m.scatter(0, 0) + sum.x() * d.x();
+    xy += inside * m.scatter(1, 0) + sum.x() * d.y();
+    xz += inside * m.scatter(2, 0) + sum.x() * d.z();
+    yy += inside * m.scatter(1, 1) + sum.y() * d.y();
+    yz += inside * m.scatter(2, 1) + sum.y() * d.z();
+    zz += inside * m.scatter(2, 2) + sum.z() * d.z();
   });
   Moments m;
   m.count = n;

@@ -42,19 +42,19 @@ std::vector<int> FrameSearch::open_frames(std::vector<int> open) const {
     const double pairs = pairs_of(open);
     double best = -1e-8;
     int add = -1, drop = -1;
-    const std::vector<std::pair<double, int>> additions = ranked_additions(open, now, opening);
-    if (!additions.empty() && additions.front().first < best) {
-      best = additions.front().first;
-      add = additions.front().second;
+    const std::vector<Addition> additions = ranked_additions(open, now, opening);
+    if (!additions.empty() && additions.front().change < best) {
+      best = additions.front().change;
+      add = additions.front().frame;
     }
     for (const int o : open) {
       if (p_.fixed[o] || open.size() == 1) continue;
-      std::vector<double> left = now.cost;
+      std::vector<int> losing;  // patches that fall back to their second best without it
       const double left_pairs = pairs - opening[o];  // irregularity(o, o) is zero
       double without = -p_.of_pairs(pairs);
       for (const Offer& offer : offers_[o])
         if (now.frame[offer.patch] == o) {
-          left[offer.patch] = now.second[offer.patch];
+          losing.push_back(offer.patch);
           without += now.second[offer.patch] - now.cost[offer.patch];
         }
       if (const double change = without + p_.of_pairs(left_pairs); change < best) {
@@ -62,11 +62,14 @@ std::vector<int> FrameSearch::open_frames(std::vector<int> open) const {
         add = -1;
         drop = o;
       }
-      for (const auto& [gain, k] : additions) {
-        const double change = without + p_.of_pairs(left_pairs + opening[k] - p_.irregularity(o, k)) - saved(k, left);
+      for (const Addition& a : additions) {
+        double saves = a.saves;
+        for (const int j : losing)
+          saves += std::max(0.0, now.second[j] - cost_(j, a.frame)) - std::max(0.0, now.cost[j] - cost_(j, a.frame));
+        const double change = without + p_.of_pairs(left_pairs + opening[a.frame] - p_.irregularity(o, a.frame)) - saves;
         if (change < best) {
           best = change;
-          add = k;
+          add = a.frame;
           drop = o;
         }
       }
@@ -121,8 +124,8 @@ FrameSearch::State FrameSearch::improve(State state) const {
 
 std::vector<int> FrameSearch::promising(const std::vector<int>& open, std::size_t count) const {
   std::vector<int> result;
-  for (const auto& [change, k] : ranked_additions(open, best_of(open), openings(open)))
-    if (result.size() < count) result.push_back(k);
+  for (const Addition& a : ranked_additions(open, best_of(open), openings(open)))
+    if (result.size() < count) result.push_back(a.frame);
   return result;
 }
 
@@ -198,14 +201,17 @@ double FrameSearch::saved(int k, const std::vector<double>& now) const {
   return sum;
 }
 
-std::vector<std::pair<double, int>> FrameSearch::ranked_additions(const std::vector<int>& open, const Best& now,
+std::vector<FrameSearch::Addition> FrameSearch::ranked_additions(const std::vector<int>& open, const Best& now,
                                                      const std::vector<double>& opening) const {
   std::vector<char> is_open(p_.frames(), 0);
   for (const int k : open) is_open[k] = 1;
-  std::vector<std::pair<double, int>> ranked;
+  std::vector<Addition> ranked;
   const double pairs = pairs_of(open), before = p_.of_pairs(pairs);
   for (int k = 0; k < p_.frames(); ++k)
-    if (!is_open[k]) ranked.emplace_back(p_.of_pairs(pairs + opening[k]) - before - saved(k, now.cost), k);
+    if (!is_open[k]) {
+      const double saves = saved(k, now.cost);
+      ranked.push_back({p_.of_pairs(pairs + opening[k]) - before - saves, k, saves});
+    }
   const auto middle = ranked.begin() + static_cast<std::ptrdiff_t>(std::min(kSwaps, ranked.size()));
   std::partial_sort(ranked.begin(), middle, ranked.end());
   ranked.erase(middle, ranked.end());

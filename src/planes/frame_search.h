@@ -58,8 +58,15 @@ class FrameSearch {
   /// Data cost that a frame takes off what patches pay now.
   double saved(int k, const std::vector<double>& now) const;
 
-  /// Change of data and irregularity by each closed frame, the most promising, best first.
-  std::vector<std::pair<double, int>> ranked_additions(const std::vector<int>& open, const Best& now, const std::vector<double>& opening) const;
+  /// A closed frame, by what opening it changes in data and irregularity, and how much data cost it saves of that.
+  struct Addition {
+    double change;
+    int frame;
+    double saves;
+    auto operator<=>(const Addition&) const = default;
+  };
+  /// The most promising additions, best first.
+  std::vector<Addition> ranked_additions(const std::vector<int>& open, const Best& now, const std::vector<double>& opening) const;
 
   double differs(int a, int ka, int b, int kb) const { return p_.orientation(a, ka) == p_.orientation(b, kb) ? 0.0 : p_.smoothness(); }
   double total(const std::vector<int>& open, const Labels& labels) const;

@@ -11,10 +11,12 @@ namespace {
 
 constexpr double kRefitGrowth = 1.3;  // the running fit is renewed when a region has grown by this factor
 
+double least_points(const Space& space) { return space.is_2d() ? 5 : 8; }
+
 /// True if a region is a surface, not a blob or a thread.
 bool is_planar(const Moments& m, const PlaneFit& fit, const Space& space, double edge) {
   const double spread = space.is_2d() ? fit.spread_u : fit.spread_v;
-  return m.count >= (space.is_2d() ? 5 : 8) && spread > 1.5 * fit.rms && fit.spread_u > 0.6 * edge &&
+  return m.count >= least_points(space) && spread > 1.5 * fit.rms && fit.spread_u > 0.6 * edge &&
          spread > 0.3 * edge;
 }
 
@@ -71,6 +73,10 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
         center = sum.mean;
         next_fit = std::max<double>(region.size() + 1, kRefitGrowth * region.size());
       }
+    }
+    if (sum.count < least_points(space)) {
+      for (const int i : region) grid.insert(open, i);
+      continue;
     }
     // What the early fit let in and the final one does not explain goes back to the pool.
     const PlaneFit fit = fit_plane(sum, space);

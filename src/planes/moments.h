@@ -30,10 +30,10 @@ struct Moments {
   Moments& operator+=(const Moments& o) {
     if (o.count == 0) return *this;
     if (count == 0) return *this = o;
-    const double total = count + o.count;
-    const Vec3 d = o.mean - mean;
-    scatter += o.scatter + (count * o.count / total) * d * d.transpose();
-    mean += (o.count / total) * d;
+    const double total = count + o.count, share = o.count / total;
+    const Vec3 d = o.mean - mean, e = count * share * d;
+    for (int i = 0; i < 3; ++i) scatter.col(i) += o.scatter.col(i) + e[i] * d;
+    mean += share * d;
     count = total;
     return *this;
   }

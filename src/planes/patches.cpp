@@ -139,9 +139,9 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
 
 Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle, Context& context) {
   CellSets regions = grow_regions(grid, cells, space, angle, context);
-  regions = split_regions(grid, space, std::move(regions), context);
-  regions = merge_regions(grid, cells, space, angle, std::move(regions), context);
-  regions = split_regions(grid, space, std::move(regions), context);
+  const CellSets uncut = split_regions(grid, space, std::move(regions), context);
+  regions = merge_regions(grid, cells, space, angle, uncut, context);
+  regions = split_regions(grid, space, std::move(regions), context, uncut);
   regions = drop_rims(grid, cells, space, std::move(regions), context);
 
   Patches result;

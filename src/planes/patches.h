@@ -51,7 +51,8 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
 using CellSets = std::vector<std::vector<int>>;
 CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
                       Context& context);
-CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context);
+/// Cuts regions while that pays, but none of those in `uncut`, which are sorted and known to have no such cut.
+CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context, const CellSets& uncut = {});
 CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
                        CellSets regions, Context& context);
 /// Leaves out regions that the planes of larger ones nearby explain within the local scale: rims where two

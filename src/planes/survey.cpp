@@ -130,6 +130,7 @@ class EvenSample {
     if (hash(x.normal.cast<double>()) < hash(known.normal.cast<double>())) known.normal = x.normal;
   }
   bool twins() const { return twins_; }
+  bool has_all() const { return zeros_ == 0; }
   std::vector<Sampled> by_hash() && {
     std::sort(places_.begin(), places_.end(),
               [](const Sampled& a, const Sampled& b) { return a.hash < b.hash; });
@@ -190,7 +191,7 @@ Survey survey(PointSource& source, Context& context) {
     }
     s.points += block.size();
   });
-  const bool twins = sample.twins();
+  const bool twins = sample.twins(), no_duplicates = sample.has_all() && !twins;
   for (const Sampled& x : std::move(sample).by_hash()) {
     s.sample.push_back(x.position);
     if (normals) s.sample_normals.push_back(x.normal);
@@ -199,7 +200,7 @@ Survey survey(PointSource& source, Context& context) {
     throw InputError(source.info().name, "points",
                      s.points == 0 ? "none" : std::to_string(s.points) + ", none of them finite",
                      "at least three points that are not in a line");
-  if (source.cloud() != nullptr || (twins && s.points <= kMostSought))
+  if (!no_duplicates && (source.cloud() != nullptr || (twins && s.points <= kMostSought)))
     find_duplicates(source, s);
   else if (twins)
     context.warn(
