@@ -92,6 +92,19 @@ TEST(Triangulate, CoversStaircasesOfAGrid) {
   EXPECT_NEAR(covered(rings, triangulate(rings)), area_of(rings), 1e-9);
 }
 
+// A hole for every few points, as the ground has under trees: some ten thousand corners.
+TEST(Triangulate, CoversAPlaneOfThousandsOfHolesExactly) {
+  Random random(5);
+  std::vector<Ring> rings = {{{0, 0}, {60, 0}, {60, 60}, {0, 60}}};
+  for (int x = 0; x < 60; ++x)
+    for (int y = 0; y < 60; ++y) rings.push_back(star({x + 0.5, y + 0.5}, 0.1, 0.45, 3 + random.index(6), random));
+  const auto triangles = triangulate(rings);
+  EXPECT_NEAR(covered(rings, triangles), area_of(rings), 1e-8);
+  std::size_t vertices = 0;
+  for (const Ring& ring : rings) vertices += ring.size();
+  EXPECT_EQ(triangles.size(), vertices + 2 * (rings.size() - 1) - 2);
+}
+
 TEST(Triangulate, HoleMayTouchTheOutlineInOnePoint) {
   const std::vector<Ring> rings = {{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{4, 4}, {1, 3}, {3, 1}}};
   EXPECT_NEAR(covered(rings, triangulate(rings)), area_of(rings), 1e-12);
