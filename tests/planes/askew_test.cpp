@@ -57,6 +57,24 @@ std::vector<double> errors_of(const Boxes& boxes, const test::Run& r) {
   return errors;
 }
 
+/// A hall of 40 m whose floor falls by 0.45°, 31 cm in all: little of an angle, but many times the noise.
+TEST(Askew, AFloorThatFallsGentlyKeepsItsPoints) {
+  PointCloud cloud;
+  Random random(6);
+  const double fall = 40.0 * std::tan(radians(0.45)), spacing = 0.1, noise = 0.002;
+  test::add_rectangle(cloud, {0, 0, -fall}, {40, 0, fall}, {0, 12, 0}, spacing, noise, random);
+  const std::size_t floor = cloud.size();
+  test::add_rectangle(cloud, {0, 0, 5}, {40, 0, 0}, {0, 12, 0}, spacing, noise, random);
+  for (const double y : {0.0, 12.0}) test::add_rectangle(cloud, {0, y, 0}, {40, 0, 0}, {0, 0, 5}, spacing, noise, random);
+  for (const double x : {0.0, 40.0}) test::add_rectangle(cloud, {x, 0, 0}, {0, 12, 0}, {0, 0, 5}, spacing, noise, random);
+  const test::Run r = test::run(cloud, test::with_scale(0.12));
+  const Vec3 normal(-std::sin(radians(0.45)), 0, std::cos(radians(0.45)));
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < floor; ++i)
+    right += r.plane_of_point[i] >= 0 && line_angle(r.result.planes[r.plane_of_point[i]].plane.normal, normal) < radians(0.05);
+  EXPECT_GT(static_cast<double>(right), 0.98 * static_cast<double>(floor));
+}
+
 TEST(Askew, DozensOfBoxesKeepTheirOrientations) {
   for (const bool freely : {true, false}) {
     const Boxes boxes = boxes_in_a_room(6, freely, 1);

@@ -216,6 +216,51 @@ TEST(RefitModel, LargeSurfacesTellMore) {
   EXPECT_NEAR(line_angle(m.normal(m.surfaces[0]), Vec3::UnitX()), e * variance(10.0) / (variance(10.0) + variance(0.5)), 0.01 * e);
 }
 
+/// A ground whose tilt is certain, and ten small tops that agree on another, which suits the frame: they outvote it.
+Model ground_and_tops(double ground_rms) {
+  Random random(4);
+  Model m = one_frame();
+  const double e = radians(0.8);
+  m.surfaces.push_back(surface_of(0, 2, {std::sin(e), 0, std::cos(e)}, 0.0, 0.0, random));
+  for (int i = 0; i < 10; ++i) m.surfaces.push_back(surface_of(0, 2, Vec3::UnitZ(), 0.0, 0.0, random));
+  for (Surface& s : m.surfaces) {
+    const bool ground = &s == &m.surfaces.front();
+    s.support.moments.count = ground ? 1e5 : 300;
+    s.support.fit.rms = ground ? ground_rms : 0.02;
+    s.support.fit.spread_u = s.support.fit.spread_v = ground ? 35.0 : 1.0;
+  }
+  return m;
+}
+
+TEST(RefitHeld, ManySmallSurfacesDoNotCarryALargeOneAway) {
+  Model m = ground_and_tops(0.03);
+  const Vec3 ground = m.surfaces[0].support.fit.normal;
+  Model plain = m;
+  refit(plain);
+  EXPECT_GT(degrees(line_angle(plain.normal(plain.surfaces[0]), ground)), 0.5);  // 0.3 m off, one spread from its centre
+  refit_held(m, 0.3, Space());
+  EXPECT_LT(degrees(line_angle(m.normal(m.surfaces[0]), ground)), 1e-6);
+  for (std::size_t i = 1; i < m.surfaces.size(); ++i) EXPECT_EQ(m.surfaces[i].frame, 0);
+  EXPECT_LT(degrees(line_angle(m.normal(m.surfaces[1]), Vec3::UnitZ())), 1e-3);
+}
+
+// Its own fit is no better than what the turn costs, or the scale says that so much does not matter.
+TEST(RefitHeld, WhatIsNotFlatStaysInItsFrame) {
+  Model rough = ground_and_tops(0.3), coarse = ground_and_tops(0.03);
+  refit_held(rough, 0.3, Space());
+  refit_held(coarse, 3.0, Space());
+  EXPECT_EQ(rough.surfaces[0].frame, 0);
+  EXPECT_EQ(coarse.surfaces[0].frame, 0);
+}
+
+TEST(RefitHeld, SurfacesSetFreeShareTheirDirection) {
+  Model m = ground_and_tops(0.03);
+  m.surfaces.push_back(m.surfaces.front());
+  refit_held(m, 0.3, Space());
+  EXPECT_EQ(m.surfaces.front().frame, m.surfaces.back().frame);
+  EXPECT_EQ(m.frames.size(), 2u);
+}
+
 TEST(Turned, StaysOrthonormalAndTurnsAsAsked) {
   Random random(3);
   Mat3 axes = Mat3::Identity();

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+
+#include "planes/arrange.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kCarriedAway = 0.3;  // of the scale: how far points one standard deviation from the centre may be turned off
+constexpr double kWorse = 3.0;        // times the rms of its own fit: less may be what the surface is not flat by
+constexpr double kCertain = 25.0;     // χ² of that turn against noise alone
+constexpr double kOneDirection = 0.03;  // of the scale: the same for surfaces set free that share a direction
+
+/// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.
+double turned_off(const Surface& surface, const Vec3& n) {
+  const PlaneFit& fit = surface.support.fit;
+  const double across = std::max(std::abs(n.dot(fit.normal)), 1e-9), u = n.dot(fit.u) / across, v = n.dot(fit.v) / across;
+  const auto chi2 = [&](double tilt, double variance, double spread) { return tilt * tilt / tilt_noise(surface.support.moments, fit, variance, spread); };
+  if (chi2(u, surface.support.variance_u, fit.spread_u) + chi2(v, surface.support.variance_v, fit.spread_v) < kCertain) return 0.0;
+  return std::hypot(u * fit.spread_u, v * fit.spread_v);
+}
+
+}  // namespace
+
+void refit_held(Model& model, double scale, const Space& space) {
+  const std::size_t shared = model.frames.size();
+  for (std::size_t round = 0; round <= model.surfaces.size(); ++round) {
+    refit(model);
+    if (space.is_2d()) return;
+    Surface* farthest = nullptr;
+    double most = kCarriedAway * scale;
+    for (Surface& s : model.surfaces)
+      if (const double off = turned_off(s, model.normal(s)); s.frame < static_cast<int>(shared) && off > std::max(most, kWorse * s.support.fit.rms)) most = off, farthest = &s;
+    if (farthest == nullptr) return;
+    farthest->local = 0;
+    farthest->frame = static_cast<int>(shared);
+    while (farthest->frame < static_cast<int>(model.frames.size()) && turned_off(*farthest, model.normal(*farthest)) > kOneDirection * scale) ++farthest->frame;
+    if (farthest->frame == static_cast<int>(model.frames.size())) model.frames.push_back(open_frame(farthest->support.fit.normal, space));
+  }
+}
+
+}  // namespace unseen::planes
