@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planes/levels.h"
 #include "planes/neighbourhoods.h"
 #include "planes/weighted.h"
 #include "unseen/core/error.h"
@@ -24,6 +25,12 @@ constexpr double kThread = 0.2;                             // spread across ove
 constexpr std::size_t kFewestOfLine = 8;                    // neighbours that tell the noise of a drawing, if their
 constexpr double kThin = 0.25;                              // rms over spread is below this; a wall's other side is near
 constexpr double kFlat = 0.5;                               // rms over spread of a disc
+constexpr double kExactlyFlat = 1e-3;                       // rms over spacing, of points that share a level
+constexpr std::size_t kMostAxes = 8;                        // along which levels are sought
+constexpr double kSameAxis = kPi / 60;                      // rad
+constexpr double kFacing = 0.3;                             // cosine of the axis and of what typical surfaces face
+constexpr double kLeastStep = 0.1, kMostStep = 4.0;         // of the scale as noise has it: what lies nearer is no level; what is farther apart is real
+constexpr double kSteps = 2.5;                              // that a scale must span, so that a slant is no staircase
 constexpr double kThick = 0.3;                              // rms over spacing that is no surface
 
 struct Probe {
@@ -121,10 +128,39 @@ double median(const std::vector<Probe>& probes, const Space& space, F value) {
   return weighted_quantile(std::move(weighted), 0.5);
 }
 
+/// Whether a probe's neighbours are flat beyond any noise.
+bool is_exact(const Probe& p) { return p.surrounded && p.fit.rms < kExactlyFlat * p.spacing; }
+
+/// Axes along which the sample may lie on levels: those of the coordinates, and normals of probes that share a level.
+std::vector<Vec3> axes_of_levels(const std::vector<Probe>& probes) {
+  std::vector<Vec3> axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  for (const Probe& p : probes) {
+    const auto same = [&](const Vec3& a) { return line_angle(a, p.fit.normal) < kSameAxis; };
+    if (axes.size() < kMostAxes && is_exact(p) && std::none_of(axes.begin(), axes.end(), same)) axes.push_back(p.fit.normal);
+  }
+  return axes;
+}
+
+/// How far apart (m) levels are on which the sample lies, as coarse depth leaves it; 0 where it does not. Depth has levels along one axis, and
+/// surfaces face it: a model without noise has them along more, and lines of a scan lie in the surface.
+double typical_step(const Survey& survey, const Space& space, const std::vector<Probe>& probes, double scale) {
+  if (space.is_2d()) return 0.0;
+  std::optional<Levels> found;
+  for (const Vec3& axis : axes_of_levels(probes)) {
+    std::optional<Levels> levels = find_levels(survey.sample, axis, kLeastStep * scale);
+    if (!levels || median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) < kFacing) continue;
+    if (found && line_angle(found->axis, axis) > kSameAxis) return 0.0;
+    found = std::move(levels);
+  }
+  if (!found) return 0.0;
+  const double step = median(probes, space, [&](const Probe& p) { return found->step_at(survey.sample[p.index]); });
+  return step < kMostStep * scale ? step : 0.0;
+}
+
 }  // namespace
 
 double choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
-                    const Context& context) {
+                    Context& context) {
   const double extent = survey.extent();
   double scale = 0;
   if (options.scale) {
@@ -138,6 +174,11 @@ double choose_scale(PointSource& source, const Survey& survey, const Space& spac
     const double spacing = median(probes, space, [](const Probe& p) { return p.spacing; });
     const double noise = median(probes, space, [](const Probe& p) { return p.fit.rms; });
     scale = std::clamp(std::max(1.25 * spacing, 4.0 * noise), 1e-4 * extent, 0.1 * extent);
+    if (const double step = typical_step(survey, space, probes, scale); kSteps * step > scale) {
+      scale = kSteps * step;
+      context.warn(fmt::format("the points lie on levels that are about {:.2g} m apart, as coarse depth leaves them: the scale is {:.1f} times that, "
+                               "and what is smaller is lost", step, kSteps));
+    }
   }
   if (!(scale > 0)) throw InputError("", "scale", fmt::format("{} m", scale), "more than 0");
   if (!(scale <= extent))

@@ -20,7 +20,7 @@ double scale_of(const PointCloud& cloud, const Options& options = {}) {
   CloudSource source(cloud);
   Context context;
   const Survey s = survey(source, context);
-  return choose_scale(source, s, space_of(s, false), options);
+  return choose_scale(source, s, space_of(s, false), options, context);
 }
 
 TEST(ChooseScale, FollowsTheSpacing) {
@@ -67,7 +67,7 @@ TEST(ChooseScale, KeepsTheSidesOfADrawnWallApart) {
     CloudSource source(cloud);
     Context context;
     const Survey s = survey(source, context);
-    EXPECT_LT(choose_scale(source, s, space_of(s, true), {}), 0.07) << step;
+    EXPECT_LT(choose_scale(source, s, space_of(s, true), {}, context), 0.07) << step;
   }
 }
 
@@ -129,6 +129,48 @@ TEST(ChooseScale, BothSidesOfAThinWallAreNoNoise) {
     test::add_rectangle(cloud, {0, y, 0}, {3, 0, 0}, {0, 0, 2}, 0.002, 0.0005, random);
   ASSERT_GT(cloud.size(), 2'000'000u);
   EXPECT_NEAR(scale_of(cloud), 1.25 * std::sqrt(6 / kPi) * 0.002, 0.001);
+}
+
+/// A floor 1.5 m below a depth camera and a wall 3.5 m before it, with noise, whose disparity is rounded to an eighth of a pixel: steps of
+/// 3 mm a square metre. `filled`: the share of the points that is rounded no more than to millimetres, as some drivers fill in.
+PointCloud coarse_depth(double filled = 0) {
+  PointCloud cloud;
+  Random random(8);
+  for (double v = -240; v < 240; v += 1.5)
+    for (double u = -320; u < 320; u += 1.5) {
+      const Vec3 ray(u / 575, v / 575, 1);
+      double z = std::min(3.5, ray.y() > 0 ? 1.5 / ray.y() : 1e9);
+      z += 0.001 * z * z * random.normal();
+      z = random.uniform() < filled ? std::round(1000 * z) / 1000 : 43 / (std::round(8 * 43 / z) / 8);
+      cloud.positions.push_back(z * ray);
+    }
+  return cloud;
+}
+
+// The points of one step are a plane of their own at the scale that spacing and noise suggest: a floor was hundreds of slices.
+TEST(ChooseScale, CoarseDepthIsNoStaircase) {
+  const double step = 3.5 * 3.5 / (8 * 43);  // of the wall; it is 3.6 cm, the floor's are less
+  const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  for (const PointCloud& camera : {coarse_depth(), coarse_depth(0.4)})
+    for (const Mat3& rotation : {Mat3(Mat3::Identity()), turn}) {
+      PointCloud cloud = camera;
+      test::turn(cloud, rotation);
+      const double scale = scale_of(cloud);
+      EXPECT_GT(scale, step);
+      EXPECT_LT(scale, 4.0 * step);
+      EXPECT_LT(test::run(cloud, Options()).result.planes.size(), 12u);
+    }
+}
+
+// A model without noise: its treads are levels too, but its risers are as exact.
+TEST(ChooseScale, StepsOfAModelAreReal) {
+  PointCloud cloud;
+  Random random(2);
+  for (int i = 0; i < 14; ++i) {
+    test::add_rectangle(cloud, {0, 0.09 * i, 0.06 * i}, {1, 0, 0}, {0, 0.09, 0}, 0.02, 0.0, random);
+    test::add_rectangle(cloud, {0, 0.09 * (i + 1), 0.06 * i}, {1, 0, 0}, {0, 0, 0.06}, 0.02, 0.0, random);
+  }
+  EXPECT_LT(scale_of(cloud), 0.05);
 }
 
 }  // namespace
