@@ -12,7 +12,8 @@ constexpr double kApart = 0.02, kNarrow = 0.5;  // of the least step: what lies 
 constexpr double kPeak = 4.0;                   // times as many points as on other values nearby are a level …
 constexpr double kOnLevels = 0.4;               // … if levels hold this share of the points; some sensors fill in what lies between,
 constexpr std::size_t kFewestLevels = 10;       // and there are so many: fewer are floors and walls,
-constexpr double kFewestOnLevel = 10;           // with so many points each
+constexpr double kFewestOnLevel = 10;           // with so many points each;
+constexpr double kMostOnLevel = 0.05;           // one that holds more than this share of the points is a floor and counts no more
 
 /// Points that share a value.
 struct Value {
@@ -45,17 +46,22 @@ std::optional<Levels> find_levels(const std::vector<Vec3>& points, const Vec3& a
   std::sort(along.begin(), along.end());
   const std::vector<Value> values = values_of(along, kApart * least);
   Levels levels{axis, {}};
-  double on_levels = 0, nearby = 0;  // points on values that are no more than the least step away
+  const double most = kMostOnLevel * static_cast<double>(along.size());
+  double on_levels = 0, beside = 0;
+  double nearby = 0;  // points on values that are no more than the least step away
   std::size_t first = 0, end = 0;
   for (const Value& v : values) {
     while (end < values.size() && values[end].low - v.high <= least) nearby += values[end++].count;
     while (v.low - values[first].high > least) nearby -= values[first++].count;
     const double others = static_cast<double>(end - first) - 1;
-    if (v.count < kFewestOnLevel || v.high - v.low > kNarrow * least || v.count * others < kPeak * (nearby - v.count)) continue;
+    if (v.count < kFewestOnLevel || v.high - v.low > kNarrow * least || v.count * others < kPeak * (nearby - v.count)) {
+      beside += v.count;
+      continue;
+    }
     levels.at.push_back(0.5 * (v.low + v.high));
-    on_levels += v.count;
+    on_levels += std::min(v.count, most);
   }
-  if (levels.at.size() < kFewestLevels || on_levels < kOnLevels * static_cast<double>(along.size())) return std::nullopt;
+  if (levels.at.size() < kFewestLevels || on_levels < kOnLevels * (on_levels + beside)) return std::nullopt;
   return levels;
 }
 

@@ -28,7 +28,9 @@ constexpr double kFlat = 0.5;                               // rms over spread o
 constexpr double kExactlyFlat = 1e-3;                       // rms over spacing, of points that share a level
 constexpr std::size_t kMostAxes = 8;                        // along which levels are sought
 constexpr double kSameAxis = kPi / 60;                      // rad
-constexpr double kFacing = 0.3;                             // cosine of the axis and of what typical surfaces face
+constexpr double kAcross = 0.2, kStray = 0.01;              // of the exactly flat probes, and of all, that may face elsewhere
+constexpr double kFacing = 0.1;                             // cosine of the axis and of what typical surfaces face
+constexpr double kAlike = 0.3;                              // of the widest step
 constexpr double kLeastStep = 0.1, kMostStep = 4.0;         // of the scale as noise has it: what lies nearer is no level; what is farther apart is real
 constexpr double kSteps = 2.5;                              // that a scale must span, so that a slant is no staircase
 constexpr double kThick = 0.3;                              // rms over spacing that is no surface
@@ -141,20 +143,32 @@ std::vector<Vec3> axes_of_levels(const std::vector<Probe>& probes) {
   return axes;
 }
 
-/// How far apart (m) levels are on which the sample lies, as coarse depth leaves it; 0 where it does not. Depth has levels along one axis, and
-/// surfaces face it: a model without noise has them along more, and lines of a scan lie in the surface.
+/// Whether what is exactly flat faces along an axis, and the typical surface not across it: a model without noise has other faces, and
+/// lines of a scan lie in the surface.
+bool is_of_depth(const std::vector<Probe>& probes, const Vec3& axis, const Space& space) {
+  double exact = 0, across = 0;
+  for (const Probe& p : probes) {
+    if (!is_exact(p)) continue;
+    ++exact;
+    across += line_angle(axis, p.fit.normal) > kSameAxis;
+  }
+  return across <= kAcross * exact + kStray * static_cast<double>(probes.size()) &&
+         median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) > kFacing;
+}
+
+/// How far apart (m) levels are on which the sample lies, as coarse depth leaves it; 0 where it does not. Steps of like size along two axes
+/// are those of a model or a lattice.
 double typical_step(const Survey& survey, const Space& space, const std::vector<Probe>& probes, double scale) {
   if (space.is_2d()) return 0.0;
-  std::optional<Levels> found;
+  double widest = 0, second = 0;
   for (const Vec3& axis : axes_of_levels(probes)) {
-    std::optional<Levels> levels = find_levels(survey.sample, axis, kLeastStep * scale);
-    if (!levels || median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) < kFacing) continue;
-    if (found && line_angle(found->axis, axis) > kSameAxis) return 0.0;
-    found = std::move(levels);
+    const std::optional<Levels> levels = find_levels(survey.sample, axis, kLeastStep * scale);
+    if (!levels || !is_of_depth(probes, axis, space)) continue;
+    const double step = median(probes, space, [&](const Probe& p) { return levels->step_at(survey.sample[p.index]); });
+    second = std::max(second, std::min(step, widest));
+    widest = std::max(widest, step);
   }
-  if (!found) return 0.0;
-  const double step = median(probes, space, [&](const Probe& p) { return found->step_at(survey.sample[p.index]); });
-  return step < kMostStep * scale ? step : 0.0;
+  return second < kAlike * widest && widest < kMostStep * scale ? widest : 0.0;
 }
 
 }  // namespace
