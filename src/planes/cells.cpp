@@ -96,7 +96,7 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
   Cells cells;
   cells.normal.assign(grid.size(), Vec3::Zero());
   cells.variation.assign(grid.size(), 1.0);
-  cells.tolerance.assign(grid.size(), 2.0 * grid.edge);
+  cells.tolerance.assign(grid.size(), grid.tolerance);
   cells.reach.assign(grid.size(), kLeastReach * 2.0 * grid.edge);
   parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

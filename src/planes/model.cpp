@@ -59,8 +59,7 @@ std::vector<Mat3> turn_covariances(const std::vector<Patch>& patches, const std:
 void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, const Space& space, double least_noise,
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
                     Model& model, const Context& context) {
-  const double scale = 2.0 * grid.edge;
-  constexpr double kExact = 0.003;    // of the scale: what differs by less is the same
+  constexpr double kExact = 0.003;    // of the tolerance: what differs by less is the same
   struct Sum {
     Moments moments;
     double variance;  // m², of the offset
@@ -77,9 +76,9 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
   for (std::size_t j = 0; j < cells.size(); ++j) {
     const Patch& patch = patches[j];
     if (patch.cells.empty()) continue;
-    const double variance = std::pow(kExact * scale, 2) + std::pow(patch.fit.rms, 2) / std::min(kMostPoints, patch.moments.count);
+    const double variance = std::pow(kExact * grid.tolerance, 2) + std::pow(patch.fit.rms, 2) / std::min(kMostPoints, patch.moments.count);
     int to = -1;
-    double nearest = 0.5 * scale;
+    double nearest = 0.5 * grid.tolerance;
     for (std::size_t s = 0; s < sums.size(); ++s) {
       if (line_angle(sums[s].normal, normals[j]) > 1e-7) continue;
       const Vec3 apart = patch.moments.mean - sums[s].moments.mean, lever = normals[j].cross(apart);

@@ -13,8 +13,8 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kSystematicTilt = 0.5 * kPi / 180.0;  // rad: registration, calibration, walls out of plumb
-constexpr double kLargestShift = 0.15;  // of the scale, of points one standard deviation from the centre
-constexpr double kScaleShare = 0.03;  // of the scale: rims and clutter pull a patch's edge by as much
+constexpr double kLargestShift = 0.15;  // of the tolerance, of points one standard deviation from the centre
+constexpr double kToleranceShare = 0.03;  // of the tolerance: rims and clutter pull a patch's edge by as much
 
 /// Variance (rad²) of the tilt that a least-squares plane has along `axis`. Residuals are summed by blocks of a
 /// grid over the patch, so that noise that is correlated over up to a block's size counts as what it is
@@ -123,11 +123,10 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
   patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u, least_noise);
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v, least_noise);
-  const double scale = 2.0 * grid.edge;
   const auto systematic = [&](double width) {
-    const double tilt = kSystematicTilt * kSystematicTilt + std::pow(kScaleShare * scale / width, 2);
+    const double tilt = kSystematicTilt * kSystematicTilt + std::pow(kToleranceShare * grid.tolerance / width, 2);
     // No doubt excuses a tilt that carries the patch's points out of the plane's tolerance.
-    return std::min(tilt, std::pow(kLargestShift * scale / width, 2));
+    return std::min(tilt, std::pow(kLargestShift * grid.tolerance / width, 2));
   };
   const double width_u = std::max(fit.spread_u, 1e-300), width_v = std::max(fit.spread_v, 1e-300);
   patch.systematic_u = systematic(width_u);

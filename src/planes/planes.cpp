@@ -104,17 +104,21 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   Survey seen;
   Space space;
   bool use_normals = false;
+  double tolerance = 0;
   {
     Stage stage(context, summary, "survey");
     seen = survey(source, context);
     check_distinct(seen, info.name);
     space = space_of(seen, info.two_dimensional);
-    result.scale = choose_scale(source, seen, space, options, context);
+    const Scale scale = choose_scale(source, seen, space, options, context);
+    result.scale = scale.scale;
+    tolerance = scale.tolerance;
     use_normals = normals_usable(seen, space, context);
     result.two_dimensional = space.is_2d();
     if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
     if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
-    if (!options.scale && !options.relative_scale) context.message(fmt::format("scale {:.4g} m, estimated from spacing and noise", result.scale));
+    if (!options.scale && !options.relative_scale)
+      context.message(fmt::format("scale {:.4g} m, estimated from spacing and noise; points may lie {:.4g} m from their plane", result.scale, tolerance));
     warn_of_lost_digits(seen, result.scale, context);
     summary.counts = {{"points", seen.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0},
                       {"finite", seen.finite}, {"duplicates", seen.duplicates}};
@@ -126,6 +130,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     if (voxels.outside() > 0)
       context.warn(fmt::format("{} of {} points lie far from all others and are left out", voxels.outside(), seen.finite));
     grid = VoxelGrid(voxels, context);
+    grid.tolerance = tolerance;
     check_not_collinear(grid, space, info.name);
     if (!use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planes/levels.h"
 #include "planes/neighbourhoods.h"
@@ -25,6 +26,10 @@ constexpr double kThread = 0.2;                             // spread across ove
 constexpr std::size_t kFewestOfLine = 8;                    // neighbours that tell the noise of a drawing, if their
 constexpr double kThin = 0.25;                              // rms over spread is below this; a wall's other side is near
 constexpr double kFlat = 0.5;                               // rms over spread of a disc
+constexpr double kNoise = 4.0;                              // times the noise is a scale, and a tolerance
+constexpr double kLeastTolerance = 0.5;                     // of the scale
+constexpr std::size_t kWide = 512, kWideEvery = 4;          // neighbours that tell correlated noise; of every so many probes,
+constexpr double kWideFlat = 0.2, kMostNoise = 0.8;         // if this flat (rms over spread); of the surface there is less noise on this share
 constexpr double kExactlyFlat = 1e-3;                       // rms over spacing, of points that share a level
 constexpr std::size_t kMostAxes = 8;                        // along which levels are sought
 constexpr double kSameAxis = kPi / 60;                      // rad
@@ -130,6 +135,20 @@ double median(const std::vector<Probe>& probes, const Space& space, F value) {
   return weighted_quantile(std::move(weighted), 0.5);
 }
 
+/// Noise (m) over wider neighbourhoods, of those that are flat: correlated noise, and how far scans are out of register, show only there.
+double wide_noise(const Survey& survey, const Space& space, const std::vector<Probe>& probes) {
+  const SampleTree tree(survey);
+  std::vector<std::pair<double, double>> noise;  // by area
+  for (std::size_t i = 0; i < probes.size(); i += kWideEvery) {
+    const Neighbourhood n = tree.around(probes[i].index, kWide);
+    Moments m;
+    for (std::size_t k = 0; k < n.size(); ++k) m += Moments{1.0, n[k], Mat3::Zero()};
+    const PlaneFit fit = fit_plane(m, space);
+    if (fit.rms < kWideFlat * fit.spread_v) noise.emplace_back(fit.rms, probes[i].spacing * probes[i].spacing);
+  }
+  return noise.empty() ? std::numeric_limits<double>::infinity() : weighted_quantile(std::move(noise), kMostNoise);
+}
+
 /// Whether a probe's neighbours are flat beyond any noise.
 bool is_exact(const Probe& p) { return p.surrounded && p.fit.rms < kExactlyFlat * p.spacing; }
 
@@ -173,10 +192,10 @@ double typical_step(const Survey& survey, const Space& space, const std::vector<
 
 }  // namespace
 
-double choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
-                    Context& context) {
+Scale choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
+                   Context& context) {
   const double extent = survey.extent();
-  double scale = 0;
+  double scale = 0, tolerance = std::numeric_limits<double>::infinity();
   if (options.scale) {
     scale = *options.scale;
   } else if (options.relative_scale) {
@@ -187,8 +206,10 @@ double choose_scale(PointSource& source, const Survey& survey, const Space& spac
                                           : probe_sample(survey, space, kProbes, kMost, context);
     const double spacing = median(probes, space, [](const Probe& p) { return p.spacing; });
     const double noise = median(probes, space, [](const Probe& p) { return p.fit.rms; });
-    scale = std::clamp(std::max(1.25 * spacing, 4.0 * noise), 1e-4 * extent, 0.1 * extent);
-    if (const double step = typical_step(survey, space, probes, scale); kSteps * step > scale) {
+    scale = std::clamp(std::max(1.25 * spacing, kNoise * noise), 1e-4 * extent, 0.1 * extent);
+    const double step = typical_step(survey, space, probes, scale);
+    if (step == 0.0 && !space.is_2d() && kNoise * noise < scale) tolerance = std::max(kLeastTolerance * scale, kNoise * wide_noise(survey, space, probes));
+    if (kSteps * step > scale) {
       scale = kSteps * step;
       context.warn(fmt::format("the points lie on levels that are about {:.2g} m apart, as coarse depth leaves them: the scale is {:.1f} times that, "
                                "and what is smaller is lost", step, kSteps));
@@ -198,7 +219,7 @@ double choose_scale(PointSource& source, const Survey& survey, const Space& spac
   if (!(scale <= extent))
     throw InputError("", "scale", fmt::format("{} m", scale),
                      fmt::format("less than the scene's extent, {:.6g} m", extent));
-  return scale;
+  return {scale, std::min(tolerance, scale)};
 }
 
 bool normals_usable(const Survey& survey, const Space& space, const Context& context) {

@@ -30,12 +30,17 @@ Survey survey(PointSource& source, Context& context);
 /// The space of a survey: 2D if all points share a coordinate and lie on lines.
 Space space_of(const Survey& survey, bool declared_2d);
 
+/// ρ, and how far points may lie from their plane: ρ as well, unless it was estimated from points that are sparse but precise.
+struct Scale {
+  double scale, tolerance;  ///< m
+};
+
 /// ρ from the options, or, if they give none, the larger of 1.25 times the distance to the sixth neighbour and
 /// four times the noise of small neighbourhoods, each the median over probes of the surface; where coarse depth has left the
 /// points on levels, at least 2.5 steps of these, with a warning. Reads the source again if the survey's sample holds only a part of it.
 /// Throws InputError if the scale exceeds the scene.
-double choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
-                    Context& context);
+Scale choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
+                   Context& context);
 
 /// Whether input normals may be relied upon: of usable length, and agreeing with PCA at most probes.
 bool normals_usable(const Survey& survey, const Space& space, const Context& context = Context());

@@ -128,7 +128,7 @@ void KeyTable::grow() {
 }
 
 VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context)
-    : edge(builder.edge()), within(builder.within()) {
+    : edge(builder.edge()), tolerance(2.0 * builder.edge()), within(builder.within()) {
   const std::vector<int> place_of = place(builder.keys(), kRings, context);
   moments.resize(size());
   bool any_normals = false;
@@ -220,6 +220,7 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   for (const VoxelKey& k : keys) up.push_back({k[0] >> 1, k[1] >> 1, k[2] >> 1});
   VoxelGrid grid;
   grid.edge = 2.0 * edge;
+  grid.tolerance = tolerance;
   grid.within = within;
   parent = grid.place(up, kCoarserRings, context);
   grid.moments.resize(grid.size());

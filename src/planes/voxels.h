@@ -120,6 +120,7 @@ class VoxelGrid {
   VoxelGrid coarser(std::vector<int>& parent, const Context& context = Context()) const;
 
   double edge = 0;
+  double tolerance = 0;  ///< m, how far a plane's points may lie from it; twice the edge unless something else is set
   Box within;  ///< what lies outside is in no voxel
   std::vector<VoxelKey> keys;
   std::vector<Moments> moments;

@@ -57,6 +57,29 @@ std::vector<double> errors_of(const Boxes& boxes, const test::Run& r) {
   return errors;
 }
 
+// A street scanned thinly but precisely: the spacing makes the scale coarse, and still facades that stand 2° apart are two.
+TEST(Askew, FacadesOfAThinScanAreNotOne) {
+  PointCloud cloud;
+  Random random(7);
+  const double spacing = 0.2, noise = 0.005;
+  const Vec3 along(std::cos(radians(2)), std::sin(radians(2)), 0);
+  test::add_rectangle(cloud, {0, 0, 0}, {15, 0, 0}, {0, 0, 8}, spacing, noise, random);
+  const std::size_t second = cloud.size();
+  test::add_rectangle(cloud, {15, 0, 0}, 12.0 * along, {0, 0, 8}, spacing, noise, random);
+  const std::size_t end = cloud.size();
+  test::add_rectangle(cloud, {0, -6, 0}, {27, 0, 0}, {0, 6, 0}, spacing, noise, random);
+  const test::Run r = test::run(cloud, Options());
+  ASSERT_GT(r.result.scale, 40 * noise);
+  const auto right = [&](std::size_t from, std::size_t to, const Vec3& normal) {
+    std::size_t count = 0;
+    for (std::size_t i = from; i < to; ++i)
+      count += r.plane_of_point[i] >= 0 && line_angle(r.result.planes[r.plane_of_point[i]].plane.normal, normal) < radians(0.2);
+    return static_cast<double>(count) / static_cast<double>(to - from);
+  };
+  EXPECT_GT(right(0, second, Vec3::UnitY()), 0.95);
+  EXPECT_GT(right(second, end, along.cross(Vec3::UnitZ())), 0.95);
+}
+
 /// A hall of 40 m whose floor falls by 0.45°, 31 cm in all: little of an angle, but many times the noise.
 TEST(Askew, AFloorThatFallsGentlyKeepsItsPoints) {
   PointCloud cloud;

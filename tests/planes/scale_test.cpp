@@ -20,7 +20,7 @@ double scale_of(const PointCloud& cloud, const Options& options = {}) {
   CloudSource source(cloud);
   Context context;
   const Survey s = survey(source, context);
-  return choose_scale(source, s, space_of(s, false), options, context);
+  return choose_scale(source, s, space_of(s, false), options, context).scale;
 }
 
 TEST(ChooseScale, FollowsTheSpacing) {
@@ -67,7 +67,7 @@ TEST(ChooseScale, KeepsTheSidesOfADrawnWallApart) {
     CloudSource source(cloud);
     Context context;
     const Survey s = survey(source, context);
-    EXPECT_LT(choose_scale(source, s, space_of(s, true), {}, context), 0.07) << step;
+    EXPECT_LT(choose_scale(source, s, space_of(s, true), {}, context).scale, 0.07) << step;
   }
 }
 
@@ -129,6 +129,23 @@ TEST(ChooseScale, BothSidesOfAThinWallAreNoNoise) {
     test::add_rectangle(cloud, {0, y, 0}, {3, 0, 0}, {0, 0, 2}, 0.002, 0.0005, random);
   ASSERT_GT(cloud.size(), 2'000'000u);
   EXPECT_NEAR(scale_of(cloud), 1.25 * std::sqrt(6 / kPi) * 0.002, 0.001);
+}
+
+// Sparse but precise points lie nearer to their planes than they are apart; correlated noise, and what is asked for, leave no such room.
+TEST(ChooseScale, ToleranceFollowsTheNoise) {
+  const auto of = [](const PointCloud& cloud, const Options& options) {
+    CloudSource source(cloud);
+    Context context;
+    const Survey s = survey(source, context);
+    const Scale scale = choose_scale(source, s, space_of(s, false), options, context);
+    return scale.tolerance / scale.scale;
+  };
+  const PointCloud precise = test::plane_cloud(0.02, 0.0005);
+  PointCloud wavy = test::plane_cloud(0.02, 0.0005);
+  for (Vec3& p : wavy.positions) p.z() += 0.014 * std::sin(2 * kPi * p.x() / 0.3) * std::sin(2 * kPi * p.y() / 0.3);
+  EXPECT_EQ(of(precise, Options()), 0.5);
+  EXPECT_EQ(of(precise, test::with_scale(0.03)), 1.0);
+  EXPECT_GT(of(wavy, Options()), 0.6);
 }
 
 /// A floor 1.5 m below a depth camera and a wall 3.5 m before it, with noise, whose disparity is rounded to an eighth of a pixel: steps of
