@@ -7,6 +7,13 @@
 namespace unseen::planes {
 namespace {
 
+constexpr double kExactlyFlat = 1e-3;                       // rms over spacing, of points that share a level
+constexpr std::size_t kMostAxes = 8;                        // along which levels are sought
+constexpr double kSameAxis = kPi / 60;                      // rad
+constexpr double kAcross = 0.2, kStray = 0.01;              // of the exactly flat probes, and of all, that may face elsewhere
+constexpr double kFacing = 0.1;                             // cosine of the axis and of what typical surfaces face
+constexpr double kAlike = 0.3;                              // of the widest step
+constexpr double kLeastStep = 0.1, kMostStep = 4.0;         // of the scale as noise has it: what lies nearer is no level; what is farther apart is real
 constexpr std::size_t kMostLookedAt = 100'000;  // points
 constexpr double kApart = 0.02, kNarrow = 0.5;  // of the least step: what lies nearer shares a value; how wide such a value may be
 constexpr double kPeak = 4.0;                   // times as many points as on other values nearby are a level …
@@ -29,6 +36,32 @@ std::vector<Value> values_of(const std::vector<double>& sorted, double apart) {
     ++values.back().count;
   }
   return values;
+}
+
+/// Whether a probe's neighbours are flat beyond any noise.
+bool is_exact(const Probe& p) { return p.surrounded && p.fit.rms < kExactlyFlat * p.spacing; }
+
+/// Axes along which the sample may lie on levels: those of the coordinates, and normals of probes that share a level.
+std::vector<Vec3> axes_of_levels(const std::vector<Probe>& probes) {
+  std::vector<Vec3> axes = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  for (const Probe& p : probes) {
+    const auto same = [&](const Vec3& a) { return line_angle(a, p.fit.normal) < kSameAxis; };
+    if (axes.size() < kMostAxes && is_exact(p) && std::none_of(axes.begin(), axes.end(), same)) axes.push_back(p.fit.normal);
+  }
+  return axes;
+}
+
+/// Whether what is exactly flat faces along an axis, and the typical surface not across it: a model without noise has other faces, and
+/// lines of a scan lie in the surface.
+bool is_of_depth(const std::vector<Probe>& probes, const Vec3& axis, const Space& space) {
+  double exact = 0, across = 0;
+  for (const Probe& p : probes) {
+    if (!is_exact(p)) continue;
+    ++exact;
+    across += line_angle(axis, p.fit.normal) > kSameAxis;
+  }
+  return across <= kAcross * exact + kStray * static_cast<double>(probes.size()) &&
+         median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) > kFacing;
 }
 
 }  // namespace
@@ -63,6 +96,19 @@ std::optional<Levels> find_levels(const std::vector<Vec3>& points, const Vec3& a
   }
   if (levels.at.size() < kFewestLevels || on_levels < kOnLevels * (on_levels + beside)) return std::nullopt;
   return levels;
+}
+
+double step_of_levels(const Survey& survey, const Space& space, const std::vector<Probe>& probes, double scale) {
+  if (space.is_2d()) return 0.0;
+  double widest = 0, second = 0;
+  for (const Vec3& axis : axes_of_levels(probes)) {
+    const std::optional<Levels> levels = find_levels(survey.sample, axis, kLeastStep * scale);
+    if (!levels || !is_of_depth(probes, axis, space)) continue;
+    const double step = median(probes, space, [&](const Probe& p) { return levels->step_at(survey.sample[p.index]); });
+    second = std::max(second, std::min(step, widest));
+    widest = std::max(widest, step);
+  }
+  return second < kAlike * widest && widest < kMostStep * scale ? widest : 0.0;
 }
 
 }  // namespace unseen::planes

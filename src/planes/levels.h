@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "unseen/core/geometry.h"
+#include "planes/probes.h"
 
 namespace unseen::planes {
 
@@ -20,5 +20,9 @@ struct Levels {
 
 /// The levels of points along an axis, if much of them lie on values that stand out among those `least` (m) away and less.
 std::optional<Levels> find_levels(const std::vector<Vec3>& points, const Vec3& axis, double least);
+
+/// How far apart (m) levels are on which the sample lies, as coarse depth leaves it; 0 where it does not. Steps of like size along two axes
+/// are those of a model or a lattice.
+double step_of_levels(const Survey& survey, const Space& space, const std::vector<Probe>& probes, double scale);
 
 }  // namespace unseen::planes
