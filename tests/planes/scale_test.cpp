@@ -148,16 +148,16 @@ TEST(ChooseScale, ToleranceFollowsTheNoise) {
   EXPECT_GT(of(wavy, Options()), 0.6);
 }
 
-/// A floor 1.5 m below a depth camera and a wall 3.5 m before it, with noise, whose disparity is rounded to an eighth of a pixel: steps of
-/// 3 mm a square metre. `filled`: the share of the points that is rounded no more than to millimetres, as some drivers fill in.
+/// A floor 0.6 m below a depth camera and a wall 3.5 m before it, with noise, whose disparity is rounded to an eighth of a pixel: steps of
+/// 3 mm times the square of the distance in metres. `filled`: the share of the points that is rounded no more than to millimetres, as some drivers fill in.
 PointCloud coarse_depth(double filled = 0) {
   PointCloud cloud;
   Random random(8);
   for (double v = -240; v < 240; v += 1.5)
     for (double u = -320; u < 320; u += 1.5) {
       const Vec3 ray(u / 575, v / 575, 1);
-      double z = std::min(3.5, ray.y() > 0 ? 1.5 / ray.y() : 1e9);
-      z += 0.001 * z * z * random.normal();
+      double z = std::min(3.5, ray.y() > 0 ? 0.6 / ray.y() : 1e9);
+      z += 0.0003 * z * z * random.normal();
       z = random.uniform() < filled ? std::round(1000 * z) / 1000 : 43 / (std::round(8 * 43 / z) / 8);
       cloud.positions.push_back(z * ray);
     }
@@ -168,7 +168,7 @@ PointCloud coarse_depth(double filled = 0) {
 TEST(ChooseScale, CoarseDepthIsNoStaircase) {
   const double step = 3.5 * 3.5 / (8 * 43);  // of the wall; it is 3.6 cm, the floor's are less
   const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
-  for (const PointCloud& camera : {coarse_depth(), coarse_depth(0.4)})
+  for (const PointCloud& camera : {coarse_depth(), coarse_depth(0.25)})
     for (const Mat3& rotation : {Mat3(Mat3::Identity()), turn}) {
       PointCloud cloud = camera;
       test::turn(cloud, rotation);
