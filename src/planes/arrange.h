@@ -51,7 +51,7 @@ void refit(Model& model);
 
 /// Refits, and gives surfaces that their frame turned out of their own points a frame of their own: the relations of many small ones
 /// must not carry away a large one that knows better.
-void refit_held(Model& model, double scale, const Space& space);
+void refit_held(Model& model, double tolerance, const Space& space);
 
 /// Replaces a surface's moments, e.g. by those of the points assigned to it; its variances are scaled along.
 void update_support(Surface& surface, const Moments& moments, const Space& space);

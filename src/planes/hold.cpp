@@ -8,10 +8,10 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kCarriedAway = 0.3;  // of the scale: how far points one standard deviation from the centre may be turned off
+constexpr double kCarriedAway = 0.2;  // of the tolerance: how far points one standard deviation from the centre may be turned off
 constexpr double kWorse = 3.0;        // times the rms of its own fit: less may be what the surface is not flat by
 constexpr double kCertain = 25.0;     // χ² of that turn against noise alone
-constexpr double kOneDirection = 0.03;  // of the scale: the same for surfaces set free that share a direction
+constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
 /// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.
 double turned_off(const Surface& surface, const Vec3& n) {
@@ -24,19 +24,19 @@ double turned_off(const Surface& surface, const Vec3& n) {
 
 }  // namespace
 
-void refit_held(Model& model, double scale, const Space& space) {
+void refit_held(Model& model, double tolerance, const Space& space) {
   const std::size_t shared = model.frames.size();
   for (std::size_t round = 0; round <= model.surfaces.size(); ++round) {
     refit(model);
     if (space.is_2d()) return;
     Surface* farthest = nullptr;
-    double most = kCarriedAway * scale;
+    double most = kCarriedAway * tolerance;
     for (Surface& s : model.surfaces)
       if (const double off = turned_off(s, model.normal(s)); s.frame < static_cast<int>(shared) && off > std::max(most, kWorse * s.support.fit.rms)) most = off, farthest = &s;
     if (farthest == nullptr) return;
     farthest->local = 0;
     farthest->frame = static_cast<int>(shared);
-    while (farthest->frame < static_cast<int>(model.frames.size()) && turned_off(*farthest, model.normal(*farthest)) > kOneDirection * scale) ++farthest->frame;
+    while (farthest->frame < static_cast<int>(model.frames.size()) && turned_off(*farthest, model.normal(*farthest)) > kOneDirection * tolerance) ++farthest->frame;
     if (farthest->frame == static_cast<int>(model.frames.size())) model.frames.push_back(open_frame(farthest->support.fit.normal, space));
   }
 }

@@ -3,6 +3,7 @@
 #include "planes/levels.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace unseen::planes {
 namespace {
@@ -21,6 +22,19 @@ constexpr double kOnLevels = 0.4;               // … if levels hold this share
 constexpr std::size_t kFewestLevels = 10;       // and there are so many: fewer are floors and walls,
 constexpr double kFewestOnLevel = 10;           // with so many points each;
 constexpr double kMostOnLevel = 0.05;           // one that holds more than this share of the points is a floor and counts no more
+
+/// Levels along an axis on which a coarsely rounded depth, or a coarse lattice, has left most of the points.
+struct Levels {
+  Vec3 axis;               ///< unit
+  std::vector<double> at;  ///< m, ascending
+
+  /// How far apart the levels are around a point (m).
+  double step_at(const Vec3& p) const {
+    const auto above = std::lower_bound(at.begin(), at.end(), axis.dot(p));
+    const auto i = std::clamp<std::ptrdiff_t>(above - at.begin(), 1, static_cast<std::ptrdiff_t>(at.size()) - 1);
+    return at[static_cast<std::size_t>(i)] - at[static_cast<std::size_t>(i - 1)];
+  }
+};
 
 /// Points that share a value.
 struct Value {
@@ -64,14 +78,7 @@ bool is_of_depth(const std::vector<Probe>& probes, const Vec3& axis, const Space
          median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) > kFacing;
 }
 
-}  // namespace
-
-double Levels::step_at(const Vec3& p) const {
-  const auto above = std::lower_bound(at.begin(), at.end(), axis.dot(p));
-  const auto i = std::clamp<std::ptrdiff_t>(above - at.begin(), 1, static_cast<std::ptrdiff_t>(at.size()) - 1);
-  return at[static_cast<std::size_t>(i)] - at[static_cast<std::size_t>(i - 1)];
-}
-
+/// The levels of points along an axis, if much of them lie on values that stand out among those `least` (m) away and less.
 std::optional<Levels> find_levels(const std::vector<Vec3>& points, const Vec3& axis, double least) {
   const std::size_t every = points.size() / kMostLookedAt + 1;
   std::vector<double> along;
@@ -97,6 +104,8 @@ std::optional<Levels> find_levels(const std::vector<Vec3>& points, const Vec3& a
   if (levels.at.size() < kFewestLevels || on_levels < kOnLevels * (on_levels + beside)) return std::nullopt;
   return levels;
 }
+
+}  // namespace
 
 double step_of_levels(const Survey& survey, const Space& space, const std::vector<Probe>& probes, double scale) {
   if (space.is_2d()) return 0.0;

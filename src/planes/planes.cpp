@@ -154,7 +154,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     record(selection, summary);
     if (selection.time_limit) context.warn("the exact solver ran out of time: the best selection found is not proven");
     model = build_model(selection, patches, grid, cells, angles, space, context);
-    refit_held(model, result.scale, space);
+    refit_held(model, tolerance, space);
     extend_parts(model, grid, cells, context);
   }
   std::vector<Moments> sums(model.parts.size());
@@ -173,7 +173,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       on_surface[model.parts[p].surface] += sums[p];
     }
     for (std::size_t s = 0; s < on_surface.size(); ++s) update_support(model.surfaces[s], on_surface[s], space);
-    refit_held(model, result.scale, space);
+    refit_held(model, tolerance, space);
     update_planes(reach, model);
   }
   {
