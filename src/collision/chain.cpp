@@ -22,9 +22,9 @@ constexpr double kAbsent = 9.0;        // σ², of a frame without the body
 constexpr double kFlown = 6.0;         // σ² that being on a flight is worth
 constexpr double kFar = 1.5;           // times the largest step within flights
 constexpr double kFarCost = 9.0;       // σ², of a step that long
-constexpr int kBack = 12;              // frames that the body may be out of sight in a track
+constexpr int kBackFrames = 12;        // that the body may be out of sight in a track, at least
 constexpr double kGapFrames = 4.5;     // frame times between two flights that meet, at most, and
-constexpr double kGapSeconds = 0.15;
+constexpr double kGapSeconds = 0.4;
 constexpr double kMoverLeast = 0.3, kMoverMost = 4.0;  // of the body's area: something else that moves
 
 double extent(const Arc& arc) {
@@ -79,7 +79,8 @@ std::vector<Arc> arcs_of_body(const std::vector<Arc>& arcs, double noise) {
 }
 
 /// One candidate a frame, or none: least unlike the body, in steps that it can take, on its flights where there are some (Viterbi).
-std::vector<Candidate> follow(const Candidates& candidates, const std::vector<Arc>& arcs, double noise) {
+std::vector<Candidate> follow(const Candidates& candidates, const std::vector<Arc>& arcs, double noise, double fps) {
+  const std::size_t back = std::max(kBackFrames, static_cast<int>(kGapSeconds * fps));
   const Candidate look = looks_of(*std::max_element(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) { return a.points.size() < b.points.size(); }));
   double far = 4.0 * noise + 0.5 * look.diameter;
   for (const Arc& arc : arcs)
@@ -105,7 +106,7 @@ std::vector<Candidate> follow(const Candidates& candidates, const std::vector<Ar
       const double own = unlikeness(c, look) - (flown ? kFlown : 0.0);
       if (own > kAbsent) continue;
       Node node{&c, kAbsent * filled[k] + own, own, -1};
-      for (std::size_t i = k >= kBack ? first_of[k - kBack] : 0; i < first_of[k]; ++i) {
+      for (std::size_t i = k >= back ? first_of[k - back] : 0; i < first_of[k]; ++i) {
         const Candidate& p = *nodes[i].candidate;
         const double step = (c.pixel - p.pixel).norm() / ((c.frame - p.frame) * far);
         const double cost = nodes[i].cost + kAbsent * (filled[k] - filled[p.frame] - 1) + own + (step > 1.0 ? 4.0 * kFarCost : kFarCost * step * step);
@@ -180,7 +181,7 @@ Tracks find_chain(const Shot& shot, const Candidates& candidates, int body, doub
     tracks.unexplained = unexplained_frames(candidates, {}, 0.0);
     return tracks;
   }
-  std::vector<Candidate> track = follow(candidates, arcs, noise);
+  std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
   correct_times(track, noise, shot, context);
   std::optional<ImageGravity> gravity;
   if (shot.gravity > 0.0) {

@@ -35,6 +35,20 @@ void warn_of_far_orientations(const Shot& shot, const Tracks& tracks, Context& c
   }
 }
 
+/// Why no impact was found.
+std::string nothing_found(const Shot& shot, const Tracks& tracks) {
+  if (tracks.spans.empty()) return "nothing that flies freely was found";
+  for (int body = 0; body < 2; ++body) {
+    const auto of_it = [body](const auto& seen) { return seen.body == body; };
+    if (shot.bodies[body].shape != Shape::fixed && shot.video.empty() && std::none_of(shot.observations.begin(), shot.observations.end(), of_it) &&
+        std::any_of(shot.observations.begin(), shot.observations.end(), [](const Sighting& s) { return s.body >= 0; }))
+      return fmt::format("no collision found: {} has no sightings", shot.bodies[body].name);
+  }
+  if (shot.gravity == 0.0 && !shot.metres_per_pixel && std::none_of(tracks.points.begin(), tracks.points.end(), [](const TrackPoint& p) { return p.diameter > 0.0; }))
+    return "no collision found: without gravity nothing tells the scale: give sightings a \"radius\", or the shot \"metres_per_pixel\"";
+  return "no collision found: the flights do not meet";
+}
+
 /// What the film, or the sightings in its place, show.
 struct Evidence {
   Footage footage;
@@ -102,7 +116,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   }
   if (impacts.empty()) {
     summary.status = Status::infeasible;
-    context.warn(tracks.spans.empty() ? "nothing that flies freely was found" : "no collision found: the flights do not meet");
+    context.warn(nothing_found(shot, tracks));
     return;
   }
   result.bodies.clear();

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kFewest = 4;   // sightings of a flight
 constexpr double kExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
+constexpr double kUsualTilt = 0.2;   // rad, of a camera whose down is not given
 
 /// A body's sightings in order of time; empty if a frame has two.
 std::vector<Candidate> sightings_of(const Candidates& candidates, int body) {
@@ -45,24 +46,24 @@ TrackPoint point_of(const Candidate& c, int body, double fps) { return {body, c.
 /// Flights in space through some of the sightings.
 class Flights {
  public:
-  Flights(const Shot& shot, const ShotCamera& camera, double noise) : shot_(shot), camera_(camera) {
+  Flights(const Shot& shot, const ShotCamera& camera, double noise) : shot_(shot), camera_(camera), given_(shot.down) {
+    if (!given_) shot_.down = Vec3::UnitY();
     tracks_.noise = noise;
     for (std::size_t o = 0; o < 2; ++o) solids_[o] = solid_of(shot.bodies[o], shot.name);
   }
 
-  /// Takes down as flights without an impact explain all sightings best, if it is not known: a wrong one bends them, which an impact would explain.
-  std::optional<double> settle_down(const std::vector<std::vector<Candidate>>& bodies, std::size_t count, double fps) {
+  /// Takes down as flights that change at `u` explain all sightings best, if it is not known; without `u` nothing changes.
+  std::optional<double> settle_down(const std::vector<std::vector<Candidate>>& bodies, std::size_t count, std::optional<double> u, double fps) {
     constexpr int kRounds = 12;
-    std::optional<double> least = cost(bodies, 0, count, std::nullopt, fps);
-    if (shot_.down || shot_.gravity == 0.0) return least;
-    shot_.down = Vec3::UnitY();
+    std::optional<double> least = cost(bodies, 0, count, u, fps);
+    if (given_ || shot_.gravity == 0.0) return least;
     double step = 0.1;  // rad
     for (int round = 0; least && round < kRounds; ++round) {
       const Vec3 down = *shot_.down, e1 = any_orthogonal(down), e2 = down.cross(e1);
       Vec3 best = down;
       for (const Vec3& side : {e1, e2, Vec3(-e1), Vec3(-e2)}) {
         shot_.down = (down + step * side).normalized();
-        const std::optional<double> next = cost(bodies, 0, count, std::nullopt, fps);
+        const std::optional<double> next = cost(bodies, 0, count, u, fps);
         if (next && *next < *least) least = next, best = *shot_.down;
       }
       if (best == down) step *= 0.5;
@@ -91,7 +92,7 @@ class Flights {
       }
     }
     const Problem problem = problem_of(shot_, Options{}, camera_, solids_, tracks, meeting);
-    double sum = 0.0;
+    double sum = given_ ? 0.0 : 0.5 * std::pow(line_angle(*shot_.down, Vec3::UnitY()) / kUsualTilt, 2);
     std::vector<Vec3> impulses;
     for (const auto& seen : bodies) {
       const int body = seen.front().body >= 0 ? seen.front().body : 0;
@@ -108,9 +109,36 @@ class Flights {
  private:
   Shot shot_;
   const ShotCamera& camera_;
+  bool given_;  ///< down, by the shot
   std::array<Solid, 2> solids_;
   Tracks tracks_;
 };
+
+/// An impact, by its frame time, and what flights that change there cost.
+struct Turn {
+  double u, cost;
+};
+
+/// The impact between flights that explains all sightings best, at any frame time, and down with it.
+std::optional<Turn> find_turn(Flights flights, const std::vector<std::vector<Candidate>>& bodies, std::size_t count, double fps, Context& context) {
+  constexpr double kStep = 0.25;  // frames
+  constexpr int kRounds = 4;
+  constexpr double kLess = 0.5;  // ½ χ² that a round must gain
+  std::optional<Turn> best;
+  for (int round = 0; round < kRounds; ++round) {
+    std::optional<Turn> now;
+    for (double u = bodies[0].front().u; u < bodies[0].back().u; u += kStep) {
+      context.check();
+      const std::optional<double> cost = flights.cost(bodies, 0, count, u, fps);
+      if (cost && (!now || *cost < now->cost)) now = Turn{u, *cost};
+    }
+    if (!now) break;
+    if (const auto settled = flights.settle_down(bodies, count, now->u, fps)) now->cost = *settled;
+    if (best && now->cost > best->cost - kLess) break;
+    best = now;
+  }
+  return best;
+}
 
 void add_span(const std::vector<Candidate>& seen, std::size_t begin, std::size_t end, int body, double fps, Tracks& tracks) {
   const std::size_t first = tracks.points.size();
@@ -121,29 +149,24 @@ void add_span(const std::vector<Candidate>& seen, std::size_t begin, std::size_t
 }  // namespace
 
 std::optional<Tracks> search_pair(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, double fps, double least_noise, Context& context) {
-  constexpr double kStep = 0.25;       // frames
   constexpr double kSignificant = 12.0;  // ½ χ² that an impact must explain
   for (const auto& frame : candidates)
     if (std::any_of(frame.begin(), frame.end(), [](const Candidate& c) { return c.body < 0; })) return std::nullopt;
   const std::vector<std::vector<Candidate>> bodies = {sightings_of(candidates, 0), sightings_of(candidates, 1)};
   if (bodies[0].size() < 2 * kFewest || bodies[1].size() < 2 * kFewest) return std::nullopt;
   const std::size_t count = std::max(bodies[0].size(), bodies[1].size());
-  Flights flights(shot, camera, noise_of(bodies, least_noise)), still = flights;
-  const std::optional<double> none = still.settle_down(bodies, count, fps);
-  std::optional<double> least;
-  double best = 0.0;
-  for (double u = bodies[0].front().u; u < bodies[0].back().u; u += kStep) {
-    context.check();
-    const std::optional<double> cost = flights.cost(bodies, 0, count, u, fps);
-    if (cost && (!least || *cost < *least)) least = cost, best = u;
-  }
-  if (!least || *least > kExplained * static_cast<double>(bodies[0].size() + bodies[1].size()) || (none && *none < *least + kSignificant)) return std::nullopt;
+  const Flights level(shot, camera, noise_of(bodies, least_noise));
+  Flights still = level;  // a wrong down bends flights, which an impact would explain
+  const std::optional<double> none = still.settle_down(bodies, count, std::nullopt, fps);
+  std::optional<Turn> turn = find_turn(level, bodies, count, fps, context);
+  if (const auto other = find_turn(still, bodies, count, fps, context); other && (!turn || other->cost < turn->cost)) turn = other;
+  if (!turn || turn->cost > kExplained * static_cast<double>(bodies[0].size() + bodies[1].size()) || (none && *none < turn->cost + kSignificant)) return std::nullopt;
   Tracks tracks;
   tracks.noise = noise_of(bodies, least_noise);
-  Tracks::Meeting meeting{best / fps, {}, {}};
+  Tracks::Meeting meeting{turn->u / fps, {}, {}};
   for (int body = 0; body < 2; ++body) {
     const auto& seen = bodies[static_cast<std::size_t>(body)];
-    const auto split = static_cast<std::size_t>(std::lower_bound(seen.begin(), seen.end(), best, [](const Candidate& c, double t) { return c.u < t; }) - seen.begin());
+    const auto split = static_cast<std::size_t>(std::lower_bound(seen.begin(), seen.end(), turn->u, [](const Candidate& c, double t) { return c.u < t; }) - seen.begin());
     meeting.before.push_back(static_cast<int>(tracks.spans.size()));
     add_span(seen, 0, split, body, fps, tracks);
     meeting.after.push_back(static_cast<int>(tracks.spans.size()));

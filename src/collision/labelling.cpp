@@ -70,8 +70,10 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector
   const Candidates candidates = candidates_of(sightings, camera);
   const int body = only_free_body(shot);
   if (body < 0) {
-    if (std::optional<Tracks> tracks = search_pair(shot, camera, candidates, fps, kLeastSightingNoise, context)) return *tracks;
-    return label(shot, camera, candidates, fps, kLeastSightingNoise, context);
+    std::optional<Tracks> tracks = search_pair(shot, camera, candidates, fps, kLeastSightingNoise, context);
+    if (!tracks) tracks = label(shot, camera, candidates, fps, kLeastSightingNoise, context);
+    tracks->told_apart = std::any_of(sightings.begin(), sightings.end(), [](const Sighting& s) { return s.body >= 0; });
+    return *tracks;
   }
   Tracks tracks = label(shot, camera, candidates, fps, kLeastSightingNoise, context);
   if (tracks.meetings.empty())

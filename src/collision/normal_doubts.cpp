@@ -18,7 +18,9 @@ namespace {
 
 constexpr double kStops = 0.4;       // of a hollow ball's speed: the most that friction takes from one that does not spin
 constexpr double kUsualFriction = 0.3;  // coefficient
+constexpr double kLever = 0.25;         // of a body's extent: how far off its centre a usual hit is
 constexpr double kLeast = 0.08;      // rad: a smaller tilt moves the restitution by a hundredth or less
+constexpr double kOtherValue = 0.01;   // of the restitution
 constexpr double kUnlikely = 13.8;   // χ² of two numbers that chance exceeds once in a thousand
 
 using Wide = ceres::Jet<double, kUnknowns>;
@@ -81,6 +83,23 @@ void doubt_normal(Solution& solution) {
   const Vec3 normal = (along + friction * sliding / speed).normalized();
   const double c = std::clamp(-after.dot(normal) / std::min(-1e-6, before.dot(normal)), 0.0, 1.0);
   solution.others.push_back({fmt::format("a contact with a friction of {:.2f}: c = {:.2f}", friction, c), c, state.mass_ratio, 0.0});
+}
+
+void doubt_lever(Solution& solution) {
+  const Problem& problem = solution.problem;
+  const State& state = solution.fit.state;
+  if (!problem.is_of_centres()) return;
+  double straight = 0.0, spinning = 0.0;  // inverse masses, as the impulse feels them
+  for (int o = 0; o < (problem.fixed ? 1 : 2); ++o) {
+    const Solid& solid = problem.solids[o];
+    const double inverse = o == 0 ? 1.0 : 1.0 / state.mass_ratio;
+    straight += inverse;
+    spinning += inverse * (solid.is_sphere() ? 1.0 : 1.0 + std::pow(kLever * solid.mass.extent, 2) / solid.mass.inertia.mean());
+  }
+  const double central = std::clamp(restitution<double>(problem, state, values_of(problem, state)), 0.0, 1.0);
+  const double c = std::min(1.0, (1.0 + central) * spinning / straight - 1.0);
+  if (c - central > kOtherValue)
+    solution.others.push_back({fmt::format("a hit off the centre, from which bodies spin: c = {:.2f}", c), c, state.mass_ratio, 0.0});
 }
 
 Vec3 error_by_vertical(const Problem& problem, const Fit& fit) {

@@ -14,6 +14,10 @@ void doubt_level(Solution& solution);
 /// bounce (thesis Fig. 5.10): adds what the flights say of a contact with friction to the solution's alternatives.
 void doubt_normal(Solution& solution);
 
+/// Where nothing tells how a body turns that is no ball, a hit off its centre makes it spin, and what goes into that passes for lost bounce: adds
+/// the restitution of such a hit to the solution's alternatives.
+void doubt_lever(Solution& solution);
+
 /// Part of the restitution's error that comes from the vertical, which all impacts of a shot share: products of two impacts' vectors are the
 /// covariance of their errors. Takes the fit's covariance.
 Vec3 error_by_vertical(const Problem& problem, const Fit& fit);

@@ -54,6 +54,7 @@ struct OtherContact {
 /// One impact of two bodies, or of one with something fixed, as the solver sees it. Camera coordinates, SI units.
 struct Problem {
   Camera camera;
+  bool focal_assumed = false;          ///< the focal length is a guess
   double gravity = 9.81;               ///< m/s²
   Vec3 down = Vec3::UnitY();           ///< expected; unit
   double down_sigma = 0.05;            ///< rad

@@ -51,21 +51,28 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
   }
 }
 
-/// Labels come from sizes; sizes that are alike tell little.
+/// Bodies are told apart by their sizes, if nobody labelled them: sizes that are alike tell little, and where none was seen the mass ratio might
+/// as well be the other way round.
 void doubt_labels(const Shot& shot, const Tracks& tracks, const SolvedImpact& impact, Reconstruction& result, Context& context) {
   constexpr double kAlike = 0.15;  // share
   const auto& solids = impact.solution.problem.solids;
-  if (shot.video.empty() || tracks.told_apart || impact.solution.problem.fixed || !result.mass_ratio) return;
-  if (std::abs(std::log(solids[0].mass.extent / solids[1].mass.extent)) > kAlike) return;
-  context.warn(fmt::format("{} and {} are alike in size: they may have been taken for each other", shot.bodies[0].name, shot.bodies[1].name));
-  result.ambiguous.push_back({"the two bodies taken for each other", impact.uncertain.restitution.value, 1.0 / result.mass_ratio->value, 0.0});
+  if (tracks.told_apart || impact.solution.problem.fixed || !result.mass_ratio) return;
+  const bool sized = std::any_of(tracks.points.begin(), tracks.points.end(), [](const TrackPoint& p) { return p.diameter > 0.0; });
+  if (sized && std::abs(std::log(solids[0].mass.extent / solids[1].mass.extent)) > kAlike) return;
+  const std::string &a = shot.bodies[0].name, &b = shot.bodies[1].name;
+  context.warn(sized ? fmt::format("{} and {} are alike in size: they may have been taken for each other", a, b)
+                     : fmt::format("no label and no size tells {} from {}: the mass ratio may be the other way round", a, b));
+  for (const double m : {result.mass_ratio->value, 1.0 / result.mass_ratio->value})
+    if (!sized || m != result.mass_ratio->value)
+      result.ambiguous.push_back({"the two bodies taken for each other", impact.uncertain.restitution.value, m, 0.0});
+  if (!sized) result.mass_ratio.reset();
 }
 
 }  // namespace
 
 void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context) {
   if (camera.assumed)
-    context.warn(fmt::format("the camera's intrinsics are assumed: focal length {:.0f} px; distances scale with it, the restitution hardly", camera.camera.fx));
+    context.warn(fmt::format("the camera's intrinsics are assumed: focal length {:.0f} px; distances scale with it, and intervals are wider for it", camera.camera.fx));
   if (footage.moving_camera) context.warn("the camera moves more than can be undone; film from a tripod");
 }
 

@@ -24,16 +24,27 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
  public:
   TermCost(Term term, const Evaluation& evaluation) : term_(std::move(term)), evaluation_(evaluation) {}
 
+  /// False where a step led to where nothing can be computed.
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    constexpr int kResiduals = Term::kResiduals;
+    const bool derive = jacobians && jacobians[0];
+    compute(residuals, derive ? jacobians[0] : nullptr);
+    return Eigen::Map<const Eigen::Matrix<double, kResiduals, 1>>(residuals).allFinite() &&
+           (!derive || Eigen::Map<const Eigen::Matrix<double, kResiduals * kUnknowns, 1>>(jacobians[0]).allFinite());
+  }
+
+ private:
+  /// Row by row; no derivatives without `jacobian`.
+  void compute(double* residuals, double* jacobian) const {
     constexpr int kResiduals = Term::kResiduals;
     if constexpr (requires { Term::kParts; }) {
       constexpr int kParts = Term::kParts;
-      if (!jacobians || !jacobians[0]) {
+      if (!jacobian) {
         std::array<double, kParts> in;
         const auto parts = term_.parts(evaluation_.state);
         for (int i = 0; i < kParts; ++i) in[i] = *parts[i];
         term_.of_parts(in, residuals, evaluation_.state);
-        return true;
+        return;
       }
       using Lean = ceres::Jet<double, kParts>;
       std::array<Lean, kParts> in;
@@ -41,28 +52,26 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
       for (int i = 0; i < kParts; ++i) in[i] = Lean(parts[i]->a, i);
       std::array<Lean, kResiduals> r;
       term_.of_parts(in, r.data(), evaluation_.state);
-      Eigen::Map<Eigen::Matrix<double, kResiduals, kUnknowns, Eigen::RowMajor>> jacobian(jacobians[0]);
+      Eigen::Map<Eigen::Matrix<double, kResiduals, kUnknowns, Eigen::RowMajor>> rows(jacobian);
       for (int k = 0; k < kResiduals; ++k) {
         residuals[k] = r[k].a;
-        jacobian.row(k).setZero();
-        for (int i = 0; i < kParts; ++i) jacobian.row(k) += r[k].v[i] * parts[i]->v.transpose();
+        rows.row(k).setZero();
+        for (int i = 0; i < kParts; ++i) rows.row(k) += r[k].v[i] * parts[i]->v.transpose();
       }
     } else {
-      if (!jacobians || !jacobians[0]) {
+      if (!jacobian) {
         term_.of_state(evaluation_.state, residuals);
-        return true;
+        return;
       }
       std::array<Wide, kResiduals> r;
       term_.of_state(evaluation_.wide, r.data());
       for (int k = 0; k < kResiduals; ++k) {
         residuals[k] = r[k].a;
-        Eigen::Map<Eigen::Matrix<double, kUnknowns, 1>>(jacobians[0] + k * kUnknowns) = r[k].v;
+        Eigen::Map<Eigen::Matrix<double, kUnknowns, 1>>(jacobian + k * kUnknowns) = r[k].v;
       }
     }
-    return true;
   }
 
- private:
   Term term_;
   const Evaluation& evaluation_;
 };

@@ -54,6 +54,7 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
                    const Tracks::Meeting& meeting) {
   Problem problem;
   problem.camera = camera.camera;
+  problem.focal_assumed = camera.assumed;
   problem.gravity = shot.gravity;
   problem.down = shot.down.value_or(Vec3::UnitY());
   problem.down_sigma = shot.down ? kDownGivenSigma : kDownSigma;

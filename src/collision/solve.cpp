@@ -115,6 +115,7 @@ bool descend(const Problem& problem, const std::optional<Proximity>& touch, int 
   options.function_tolerance = 1e-10;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
+  if (!setup.ceres.Evaluate({}, &cost, nullptr, nullptr, nullptr)) return false;  // Ceres would write to the user's terminal
   ceres::Solver::Summary summary;
   ceres::Solve(options, &setup.ceres, &summary);
   if (!summary.IsSolutionUsable()) return false;

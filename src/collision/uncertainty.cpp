@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "collision/focal_doubt.h"
 #include "collision/normal_doubts.h"
 #include "collision/unknowns.h"
 #include "unseen/core/random.h"
@@ -110,6 +111,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   add_covariance(problem, solution.fit);
   doubt_level(solution);
   doubt_normal(solution);
+  doubt_lever(solution);
   Uncertain result{restitution_of(problem, solution.fit), mass_ratio_of(problem, solution.fit), error_by_vertical(problem, solution.fit)};
   const double by_covariance = result.restitution.sd;
   result.restitution.value = std::clamp(result.restitution.value, 0.0, 1.0);
@@ -137,9 +139,10 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
     m_spread = std::max(m_spread, share * std::abs(other.mass_ratio - result.mass_ratio.value) / 1.96);
   }
   if (problem.level && c_spread > c_noise) c_spread = std::hypot(c_spread, c_noise);  // another floor's value is as noisy
-  widen(result.restitution, c_spread, 0.0, 1.0);
+  const FocalError focal = error_by_focal_length(solution);
+  widen(result.restitution, std::hypot(c_spread, focal.restitution), 0.0, 1.0);
   if (by_covariance > 0.0) result.common *= result.restitution.sd / by_covariance;
-  widen(result.mass_ratio, m_spread, 0.0, std::numeric_limits<double>::infinity());
+  widen(result.mass_ratio, std::hypot(m_spread, focal.mass_ratio), 0.0, std::numeric_limits<double>::infinity());
   return result;
 }
 

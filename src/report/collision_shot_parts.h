@@ -25,7 +25,7 @@ collision::Body read_body(const JsonField& json, const std::filesystem::path& fo
 collision::ShotCamera read_shot_camera(const JsonField& shot);
 
 /// The file that "observations" names. Labels are names of `bodies`.
-std::vector<collision::Sighting> read_sightings(const std::filesystem::path& path, const std::vector<collision::Body>& bodies);
+std::vector<collision::Sighting> read_sightings(const std::filesystem::path& path, const std::vector<collision::Body>& bodies, const Camera& camera);
 
 /// The place of the named body that moves.
 int free_body(const JsonField& name, const std::vector<collision::Body>& bodies);

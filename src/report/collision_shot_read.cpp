@@ -93,7 +93,7 @@ void read_footage(Shot& shot, const JsonField& json, const std::filesystem::path
     shot.video = io::named_file(json, "video", folder).string();
     return;
   }
-  shot.observations = read_sightings(io::named_file(json, "observations", folder), shot.bodies);
+  shot.observations = read_sightings(io::named_file(json, "observations", folder), shot.bodies, shot.camera.camera);
   if (!shot.fps) throw InputError(shot.name, "fps", "nothing", "frames a second: without a video nothing else tells");
   const Camera& camera = shot.camera.camera;
   if (camera.fx <= 0 && camera.width <= 0)

@@ -48,6 +48,18 @@ TEST(Reconstruct, ReadsTheRestitutionOfABouncingBall) {
   EXPECT_FALSE(r.mass_ratio);
 }
 
+TEST(Reconstruct, ABounceOfWhichThreeTenthsOfASecondAreUnseen) {
+  Shot shot = bouncing_ball(0.7, 55);
+  const double impact = std::sqrt(2.0 * 0.8 / 9.81);
+  std::erase_if(shot.observations, [&](const Sighting& s) { return std::abs(s.frame / *shot.fps - impact) < 0.15; });
+  Context context;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  ASSERT_EQ(r.impacts.size(), 1u);
+  EXPECT_NEAR(r.impacts[0].time, impact, 0.01);
+  ASSERT_TRUE(r.restitution);
+  EXPECT_NEAR(r.restitution->value, 0.7, 0.02);
+}
+
 TEST(Reconstruct, OneRestitutionForAllImpactsIfAsked) {
   Context context;
   Options options;

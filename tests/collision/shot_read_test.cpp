@@ -133,6 +133,22 @@ TEST_F(ShotFile, SightingsReplaceTheVideo) {
   }
 }
 
+TEST_F(ShotFile, ABodyIsSeenOnceAFrameAndAboutThePicture) {
+  good.erase("video");
+  good["observations"] = "obs.json";
+  good["camera"] = {{"hfov_deg", 60}, {"width", 640}, {"height", 480}};
+  const std::string twin = R"({"frame": 1, "x": 1, "y": 1, "label": "ball"})";
+  for (const char* fine : {R"({"frame": 2, "x": 5, "y": 1, "label": "ball"})", R"({"frame": 1, "x": 5, "y": 1, "label": "box"})", R"({"frame": 1, "x": 5, "y": 1})",
+                           R"({"frame": 1, "x": 1, "y": 1, "label": "ball"})", R"({"frame": 3, "x": -300, "y": 700})"}) {
+    write("obs.json", "[" + twin + "," + fine + "]");
+    EXPECT_EQ(read(good).observations.size(), 2u) << fine;
+  }
+  for (const char* bad : {R"({"frame": 1, "x": 5, "y": 1, "label": "ball"})", R"({"frame": 3, "x": 1000, "y": 1})", R"({"frame": 3, "x": 1, "y": -300})"}) {
+    write("obs.json", "[" + twin + "," + bad + "]");
+    EXPECT_THROW(read(good), InputError) << bad;
+  }
+}
+
 TEST_F(ShotFile, WithoutAVideoItMustSayWhatAVideoWould) {
   good.erase("video");
   good["observations"] = "obs.json";

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// What a shot does not tell is counted in the intervals, or said.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/filmed_bounce.h"
+#include "unseen/collision/collision.h"
+#include "unseen/collision/synth.h"
+
+namespace unseen::collision {
+namespace {
+
+/// Tracks of centres, off by at most 1 % of the larger body.
+SynthShot tracks(const std::string& scene, int seed) {
+  SynthOptions o;
+  o.scene = scene;
+  o.video = false;
+  o.centroid_noise = 0.01;
+  o.seed = seed;
+  return simulate(o);
+}
+
+Reconstruction solve(const Shot& shot) {
+  Context context;
+  return reconstruct(shot, {}, context);
+}
+
+bool holds(const std::optional<Estimate>& e, double truth) { return e && e->low <= truth && truth <= e->high; }
+
+bool says(const Reconstruction& r, const std::string& part) {
+  return std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [&](const std::string& w) { return w.find(part) != std::string::npos; });
+}
+
+/// The same scene from a camera turned about its centre, which moves pixels by a homography.
+void turn_camera(Shot& shot, const Mat3& turn) {
+  for (Sighting& s : shot.observations) s.pixel = shot.camera.camera.project(turn * shot.camera.camera.unproject(s.pixel.x(), s.pixel.y(), 1.0));
+  for (OrientationHint& hint : shot.orientations) hint.q = Quat(turn) * hint.q;
+}
+
+TEST(AssumedFocalLength, IsCountedWhereABallComesNearer) {
+  int believed = 0, guessed = 0, runs = 0;
+  for (const double wrong : {0.8, 1.2})
+    for (int seed = 1; seed <= 4; ++seed, ++runs) {
+      Shot shot = filmed(towards_the_camera(1), seed);
+      shot.camera.camera.fx *= wrong;
+      shot.camera.camera.fy *= wrong;
+      believed += holds(solve(shot).restitution, kC);
+      shot.camera.assumed = true;
+      guessed += holds(solve(shot).restitution, kC);
+    }
+  EXPECT_GE(guessed, runs - 1);
+  EXPECT_LT(believed, guessed);
+}
+
+TEST(AssumedFocalLength, HardlyMattersWhereBodiesFlyAcross) {
+  Shot shot = tracks("balls", 1).shot;
+  const Reconstruction known = solve(shot);
+  shot.camera.assumed = true;
+  const Reconstruction assumed = solve(shot);
+  ASSERT_TRUE(known.restitution && assumed.restitution);
+  EXPECT_LT(assumed.restitution->sd, 1.5 * known.restitution->sd);
+}
+
+TEST(HitsOffTheCentre, OfBodiesKnownByTheirSizeAreCounted) {
+  int held = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    const SynthShot synth = tracks("offcentre", seed);
+    Shot shot = synth.shot;
+    shot.orientations.clear();
+    for (Body& body : shot.bodies) {
+      body.size = body.box.maxCoeff();
+      body.shape = Shape::size;
+    }
+    const Reconstruction r = solve(shot);
+    ASSERT_EQ(r.impacts.size(), 1u) << seed;
+    held += holds(r.impacts[0].restitution, *synth.truth.restitution);
+    EXPECT_TRUE(std::any_of(r.ambiguous.begin(), r.ambiguous.end(), [](const Alternative& a) { return a.what.find("off the centre") != std::string::npos; }));
+  }
+  EXPECT_GE(held, 3);
+}
+
+TEST(Labels, WithoutThemAndWithoutSizesTheMassRatioIsAmbiguous) {
+  const SynthShot synth = tracks("balls", 2);
+  Shot shot = synth.shot;
+  for (Sighting& s : shot.observations) s.radius = 0.0;
+  const Reconstruction labelled = solve(shot);
+  EXPECT_TRUE(labelled.mass_ratio);
+  for (Sighting& s : shot.observations) s.body = -1;
+  const Reconstruction r = solve(shot);
+  ASSERT_EQ(r.impacts.size(), 1u);
+  EXPECT_FALSE(r.mass_ratio);
+  EXPECT_TRUE(says(r, "the other way round"));
+  ASSERT_GE(r.ambiguous.size(), 2u);
+  const double m = *synth.truth.mass_ratio;
+  for (const double either : {m, 1.0 / m})
+    EXPECT_TRUE(std::any_of(r.ambiguous.begin(), r.ambiguous.end(), [&](const Alternative& a) { return std::abs(a.mass_ratio / either - 1.0) < 0.1; })) << either;
+}
+
+TEST(UnknownDown, IsFoundWithTheImpactWhereTheCameraLooksDown) {
+  for (const double pitch : {15.0, 30.0})
+    for (int seed = 1; seed <= 2; ++seed) {
+      const SynthShot synth = tracks("balls", seed);
+      Shot shot = synth.shot;
+      shot.down.reset();
+      turn_camera(shot, Mat3(Eigen::AngleAxisd(radians(pitch), Vec3::UnitX())));
+      const Reconstruction r = solve(shot);
+      ASSERT_EQ(r.impacts.size(), 1u) << pitch << " " << seed;
+      EXPECT_NEAR(r.impacts[0].frame, synth.truth.impacts[0].frame, 1.0) << pitch << " " << seed;
+      ASSERT_TRUE(r.restitution) << pitch << " " << seed;
+      EXPECT_NEAR(r.restitution->value, *synth.truth.restitution, 0.02) << pitch << " " << seed;
+    }
+}
+
+TEST(NothingFound, SaysWhatIsMissing) {
+  Shot one = tracks("balls", 1).shot;
+  std::erase_if(one.observations, [](const Sighting& s) { return s.body == 1; });
+  EXPECT_TRUE(says(solve(one), one.bodies[1].name + " has no sightings"));
+  Shot planar = tracks("planar", 2).shot;
+  planar.metres_per_pixel.reset();
+  for (Sighting& s : planar.observations) s.radius = 0.0;
+  const Reconstruction r = solve(planar);
+  EXPECT_TRUE(r.impacts.empty());
+  EXPECT_TRUE(says(r, "tells the scale"));
+}
+
+}  // namespace
+}  // namespace unseen::collision
