@@ -134,7 +134,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
 
 void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, bool only_sure,
                    std::span<int> plane_of_point, const Context& context) {
-  parallel_blocks(context, block.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(context, block.size(), 1 << 11, [&](std::size_t begin, std::size_t end) {
     VoxelKey last{};
     int voxel = -2;
     for (std::size_t i = begin; i < end; ++i) {
@@ -178,7 +178,7 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
 
 void drop_near_edges(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
                      std::span<int> plane_of_point, const Context& context) {
-  parallel_blocks(context, block.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(context, block.size(), 1 << 11, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int plane = plane_of_point[i];
       if (plane < 0) continue;

@@ -98,7 +98,7 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
   cells.variation.assign(grid.size(), 1.0);
   cells.tolerance.assign(grid.size(), grid.tolerance);
   cells.reach.assign(grid.size(), kLeastReach * 2.0 * grid.edge);
-  parallel_blocks(context, grid.size(), 4096, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(context, grid.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3& center = grid.moments[i].mean;
       for (int l = 0; l < kLevels; ++l) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -36,6 +37,32 @@ double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis
   const double robust = information > 0 ? sum / (information * information) : 0.0;
   const double plain = std::pow(std::max(fit.rms, least_noise), 2) / std::max(information, 1e-300);
   return std::max(robust, plain);
+}
+
+/// Variance (rad²) of a tilt along `axis` that shows as a wedge: where scans are turned against each other, a surface is thicker at one end
+/// than at the other, and its plane is as uncertain as that angle.
+double wedge_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis, double spread) {
+  constexpr double kEnd = 0.5;    // of the spread: what lies farther out is an end
+  constexpr double kClearly = 3;  // standard errors
+  struct End {
+    double count = 0, place = 0, square = 0;
+  };
+  std::array<End, 2> ends;
+  for (const int i : patch.cells) {
+    const Moments& m = grid.moments[i];
+    const Vec3 d = m.mean - patch.moments.mean;
+    const double x = axis.dot(d), r = patch.fit.normal.dot(d);
+    if (std::abs(x) < kEnd * spread) continue;
+    End& end = ends[x > 0 ? 1 : 0];
+    end.count += m.count;
+    end.place += m.count * x;
+    end.square += m.count * r * r + patch.fit.normal.dot(m.scatter * patch.fit.normal);
+  }
+  if (!(ends[0].square > 0 && ends[1].square > 0)) return 0.0;
+  const auto rms = [](const End& e) { return std::sqrt(e.square / e.count); };
+  const double error = std::sqrt(0.5 / ends[0].count + 0.5 / ends[1].count);
+  if (std::abs(std::log(rms(ends[1]) / rms(ends[0]))) < kClearly * error) return 0.0;
+  return std::pow((rms(ends[1]) - rms(ends[0])) / (ends[1].place / ends[1].count - ends[0].place / ends[0].count), 2);
 }
 
 /// Half the median rms of regions.
@@ -77,7 +104,7 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
   }
   const double cos_angle = std::cos(angle);
   std::mutex joining;
-  parallel_blocks(context, coarse.size(), 2048, [&](std::size_t begin, std::size_t end) {
+  parallel_blocks(context, coarse.size(), 512, [&](std::size_t begin, std::size_t end) {
     Pairs adjoining, neighbours;
     std::vector<int> beside, alike;  // patches found around one member
     const auto once = [](std::vector<int>& list, int patch) {
@@ -131,8 +158,11 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   const double width_u = std::max(fit.spread_u, 1e-300), width_v = std::max(fit.spread_v, 1e-300);
   patch.systematic_u = systematic(width_u);
   patch.systematic_v = space.is_2d() ? 0.0 : systematic(width_v);  // a line cannot tilt out of its drawing
-  patch.doubt_u = tilt_noise(patch.moments, fit, patch.variance_u, width_u) + patch.systematic_u;
-  patch.doubt_v = space.is_2d() ? std::numeric_limits<double>::infinity() : tilt_noise(patch.moments, fit, patch.variance_v, width_v) + patch.systematic_v;
+  const auto doubt = [&](const Vec3& axis, double variance, double width) {
+    return tilt_noise(patch.moments, fit, variance, width) + wedge_variance(grid, patch, axis, width);
+  };
+  patch.doubt_u = doubt(fit.u, patch.variance_u, width_u) + patch.systematic_u;
+  patch.doubt_v = space.is_2d() ? std::numeric_limits<double>::infinity() : doubt(fit.v, patch.variance_v, width_v) + patch.systematic_v;
   return patch;
 }
 
