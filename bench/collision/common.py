@@ -95,10 +95,11 @@ def scores(code, seconds, result, c_true, m_true):
     return row
 
 
-def simulated(bench, name, synth, solve=None, **columns):
-    """Makes and reconstructs one simulated case: its row. `columns` lead it. The solver is told how good the orientations are."""
+def simulated(bench, name, synth, solve=None, disturb=None, **columns):
+    """Makes and reconstructs one simulated case: its row. `columns` lead it. The solver is told how good the orientations are. `disturb` changes
+    the list of sightings."""
     told = {"orientation_noise": max(LEAST_TOLD, synth.get("orientation_noise", 0))}
-    return measured(bench, name, synth | {"video": False}, told | (solve or {}), columns)
+    return measured(bench, name, synth | {"video": False}, told | (solve or {}), columns, disturb)
 
 
 def filmed(bench, name, synth, **columns):
@@ -106,11 +107,14 @@ def filmed(bench, name, synth, **columns):
     return measured(bench, name, synth, {}, columns)
 
 
-def measured(bench, name, synth, solve, columns):
+def measured(bench, name, synth, solve, columns, disturb=None):
     shot, out = bench.work / name / "shot", bench.work / name / "out"
     code, error = command("synth", "collision", "-o", shot, *flags(synth))
     if code:
         raise RuntimeError(f"unseen synth collision {' '.join(flags(synth))}: {error}")
+    if disturb:
+        sightings = shot / "observations.json"
+        sightings.write_text(json.dumps(disturb(read(sightings))))
     code, seconds, result = reconstruct(shot, out, solve)
     truth = read(shot / "truth.json")
     ratio = truth["mass_ratio"]

@@ -31,12 +31,34 @@ def exact(bench):
     return ["case", "scene", "seed", *MEASURES], bench.run(simulated, cases), lambda rows: by(rows, "scene", "scene")
 
 
+def off_by(percent, draw):
+    """Sightings with uniform noise of up to so much of the larger body's mean size in the picture."""
+    random = np.random.default_rng([round(10 * percent), draw])
+
+    def disturb(sightings):
+        sizes = {label: np.mean([2 * s["radius"] for s in sightings if s["label"] == label]) for label in {s["label"] for s in sightings}}
+        most = percent / 100 * max(sizes.values())
+        return [s | {axis: s[axis] + random.uniform(-most, most) for axis in "xy"} for s in sightings]
+
+    return disturb
+
+
 def noise(bench):
-    """Fig. 5.8a: centroids off by up to a share of the larger body's size; nine runs at each of seven levels."""
+    """Fig. 5.8a: one scene, 63 runs with centroids off by up to a share of the larger body's size: 21 margins, three draws of each."""
+    cases = []
+    for percent in np.linspace(0, 30, 21):
+        for draw in range(1, 4):
+            cases.append({"name": f"noise-{percent:g}-{draw}", "synth": {**THESIS, "seed": 1}, "disturb": off_by(percent, draw),
+                          "percent": f"{percent:g}", "draw": draw})
+    return ["case", "percent", "draw", "seed", *MEASURES], bench.run(simulated, cases), lambda rows: by(rows, "seed", "scene")
+
+
+def noise_scenes(bench):
+    """The same over nine scenes at seven levels, each scene with the same noise at all of them."""
     cases = []
     for level in (0, 5, 10, 15, 20, 25, 30):
         for seed in range(1, 10):
-            cases.append({"name": f"noise-{level}-{seed}", "synth": {**THESIS, "centroid_noise": level / 100, "seed": seed}, "percent": level})
+            cases.append({"name": f"noise-scenes-{level}-{seed}", "synth": {**THESIS, "centroid_noise": level / 100, "seed": seed}, "percent": level})
     return ["case", "percent", "seed", *MEASURES], bench.run(simulated, cases), lambda rows: by(rows, "percent", "noise (%)")
 
 

@@ -40,29 +40,34 @@ double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis
 }
 
 /// Variance (rad²) of a tilt along `axis` that shows as a wedge: where scans are turned against each other, a surface is thicker at one end
-/// than at the other, and its plane is as uncertain as that angle.
+/// than in the middle, and there than at the other end, and its plane is as uncertain as that angle. What is thick at an end alone has
+/// something else lying there, and what is thick for its width is no surface that scans agree on.
 double wedge_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis, double spread) {
-  constexpr double kEnd = 0.5;    // of the spread: what lies farther out is an end
-  constexpr double kClearly = 3;  // standard errors
-  struct End {
+  constexpr double kMiddle = 0.5;   // of the spread, to either side
+  constexpr double kClearly = 3;    // standard errors
+  constexpr double kBetween = 0.2;  // of what the ends differ by: the middle differs from both by as much
+  constexpr double kThin = 0.15;    // of the spread
+  if (patch.fit.rms > kThin * spread) return 0.0;
+  struct Part {
     double count = 0, place = 0, square = 0;
+    double rms() const { return std::sqrt(square / count); }
   };
-  std::array<End, 2> ends;
+  std::array<Part, 3> parts;
   for (const int i : patch.cells) {
     const Moments& m = grid.moments[i];
     const Vec3 d = m.mean - patch.moments.mean;
     const double x = axis.dot(d), r = patch.fit.normal.dot(d);
-    if (std::abs(x) < kEnd * spread) continue;
-    End& end = ends[x > 0 ? 1 : 0];
-    end.count += m.count;
-    end.place += m.count * x;
-    end.square += m.count * r * r + patch.fit.normal.dot(m.scatter * patch.fit.normal);
+    Part& part = parts[x < -kMiddle * spread ? 0 : x > kMiddle * spread ? 2 : 1];
+    part.count += m.count;
+    part.place += m.count * x;
+    part.square += m.count * r * r + patch.fit.normal.dot(m.scatter * patch.fit.normal);
   }
-  if (!(ends[0].square > 0 && ends[1].square > 0)) return 0.0;
-  const auto rms = [](const End& e) { return std::sqrt(e.square / e.count); };
-  const double error = std::sqrt(0.5 / ends[0].count + 0.5 / ends[1].count);
-  if (std::abs(std::log(rms(ends[1]) / rms(ends[0]))) < kClearly * error) return 0.0;
-  return std::pow((rms(ends[1]) - rms(ends[0])) / (ends[1].place / ends[1].count - ends[0].place / ends[0].count), 2);
+  const auto& [low, middle, high] = parts;
+  if (!(low.square > 0 && middle.square > 0 && high.square > 0)) return 0.0;
+  const double error = std::sqrt(0.5 / low.count + 0.5 / high.count), more = high.rms() - low.rms();
+  if (std::abs(std::log(high.rms() / low.rms())) < kClearly * error) return 0.0;
+  if (std::abs((middle.rms() - low.rms()) / more - 0.5) > 0.5 - kBetween) return 0.0;
+  return std::pow(more / (high.place / high.count - low.place / low.count), 2);
 }
 
 /// Half the median rms of regions.
