@@ -80,8 +80,13 @@ double irregularity(const OrientationFrame& a, const OrientationFrame& b, const 
   std::size_t count = 1;
   if (a.closed && b.closed) {
     const Mat3 turn = a.axes.transpose() * b.axes;
-    for (const Vec3& l : locals)
-      sum += angle_of(nearest_cosine(turn * l, locals)) + angle_of(nearest_cosine(turn.transpose() * l, locals));
+    if (locals.size() == 3) {  // the axes alone
+      const Mat3 cosines = turn.cwiseAbs();
+      for (int i = 0; i < 3; ++i) sum += angle_of(cosines.col(i).maxCoeff()) + angle_of(cosines.row(i).maxCoeff());
+    } else {
+      for (const Vec3& l : locals)
+        sum += angle_of(nearest_cosine(turn * l, locals)) + angle_of(nearest_cosine(turn.transpose() * l, locals));
+    }
     count = 2 * locals.size();
   } else if (a.closed || b.closed) {
     const OrientationFrame &closed = a.closed ? a : b, &open = a.closed ? b : a;

@@ -64,8 +64,16 @@ std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::s
   parallel_blocks(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       probes[i] = probe(tree.around(i, kFewestNeighbours), i, space);
-      if (most > kFewestNeighbours && !(is_flat(probes[i].fit, space) && probes[i].surrounded)) probes[i] = probe(tree.around(i, most), i, space);
+      if (!(is_flat(probes[i].fit, space) && probes[i].surrounded)) probes[i] = probe(tree.around(i, most), i, space);
     }
+  });
+  return probes;
+}
+
+std::vector<Probe> probe_few(const Survey& survey, const Space& space, std::size_t count, const Context& context) {
+  std::vector<Probe> probes(std::min(count, survey.sample.size()));
+  parallel_blocks(context, probes.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) probes[i] = probe(nearest_in_sample(survey, i, kFewestNeighbours), i, space);
   });
   return probes;
 }

@@ -24,6 +24,9 @@ struct Probe {
 std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::size_t count, std::size_t most,
                                 const Context& context);
 
+/// Some hundred probes of the sample, of each the nearest kFewestNeighbours.
+std::vector<Probe> probe_few(const Survey& survey, const Space& space, std::size_t count, const Context& context);
+
 /// The same among all points of the source. Where even `most` of them are no flat disc, and where points are too sparse to be gathered, those of
 /// the sample tell.
 std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,

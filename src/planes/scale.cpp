@@ -71,7 +71,7 @@ Scale choose_scale(PointSource& source, const Survey& survey, const Space& space
 
 bool normals_usable(const Survey& survey, const Space& space, const Context& context) {
   if (!survey.has_normals() || 2 * survey.without_normal > survey.finite) return false;
-  const std::vector<Probe> probes = probe_sample(survey, space, kNormalProbes, kFewestNeighbours, context);
+  const std::vector<Probe> probes = probe_few(survey, space, kNormalProbes, context);
   return median(probes, space, [&](const Probe& p) {
            const Vec3 n = survey.sample_normals[p.index].cast<double>();
            return n.norm() > 0.5 ? line_angle(n, p.fit.normal) : kPi / 2;
