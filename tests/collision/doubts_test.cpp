@@ -100,8 +100,8 @@ TEST(Labels, WithoutThemAndWithoutSizesTheMassRatioIsAmbiguous) {
 }
 
 TEST(UnknownDown, IsFoundWithTheImpactWhereTheCameraLooksDown) {
-  for (const double pitch : {15.0, 30.0})
-    for (int seed = 1; seed <= 2; ++seed) {
+  for (const double pitch : {15.0, 50.0})
+    for (const int seed : {1, 3}) {
       const SynthShot synth = tracks("balls", seed);
       Shot shot = synth.shot;
       shot.down.reset();
