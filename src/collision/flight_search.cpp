@@ -119,19 +119,33 @@ struct Turn {
   double u, cost;
 };
 
-/// The impact between flights that explains all sightings best, at any frame time, and down with it.
+/// The impact between flights that explains all sightings best, at any frame time: first in steps of a small part of the shot, then in finer ones.
+std::optional<Turn> best_turn(Flights& flights, const std::vector<std::vector<Candidate>>& bodies, std::size_t count, double fps, Context& context) {
+  constexpr double kFinest = 0.25;   // frames
+  constexpr double kCoarsest = 150;  // steps in the shot
+  constexpr double kFiner = 4;
+  std::optional<Turn> best;
+  double from = bodies[0].front().u, to = bodies[0].back().u, step = std::max(kFinest, (to - from) / kCoarsest);
+  while (true) {
+    for (double u = from; u < to; u += step) {
+      context.check();
+      const std::optional<double> cost = flights.cost(bodies, 0, count, u, fps);
+      if (cost && (!best || *cost < best->cost)) best = Turn{u, *cost};
+    }
+    if (!best || step == kFinest) return best;
+    from = std::max(from, best->u - step);
+    to = std::min(to, best->u + step);
+    step = std::max(kFinest, step / kFiner);
+  }
+}
+
+/// The same, and down with it.
 std::optional<Turn> find_turn(Flights flights, const std::vector<std::vector<Candidate>>& bodies, std::size_t count, double fps, Context& context) {
-  constexpr double kStep = 0.25;  // frames
   constexpr int kRounds = 4;
   constexpr double kLess = 0.5;  // ½ χ² that a round must gain
   std::optional<Turn> best;
   for (int round = 0; round < kRounds; ++round) {
-    std::optional<Turn> now;
-    for (double u = bodies[0].front().u; u < bodies[0].back().u; u += kStep) {
-      context.check();
-      const std::optional<double> cost = flights.cost(bodies, 0, count, u, fps);
-      if (cost && (!now || *cost < now->cost)) now = Turn{u, *cost};
-    }
+    std::optional<Turn> now = best_turn(flights, bodies, count, fps, context);
     if (!now) break;
     if (const auto settled = flights.settle_down(bodies, count, now->u, fps)) now->cost = *settled;
     if (best && now->cost > best->cost - kLess) break;
