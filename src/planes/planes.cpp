@@ -66,8 +66,23 @@ void warn_of_few(const Arrangement& result, std::size_t usable, Context& context
   std::size_t assigned = 0;
   for (const ArrangedPlane& p : result.planes) assigned += p.points;
   if (result.planes.empty() || static_cast<double>(assigned) > kFew * static_cast<double>(usable)) return;
-  context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m; if the scene is made of planes, try a larger one "
-                           "(--scale)", 100.0 * static_cast<double>(assigned) / static_cast<double>(usable), result.scale));
+  context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m: plants do not; if the scene is made of planes, another "
+                           "scale suits it better (--scale)", 100.0 * static_cast<double>(assigned) / static_cast<double>(usable), result.scale));
+}
+
+/// Warns where planes are at right angles that the angles asked for do not name.
+void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Context& context) {
+  constexpr double kRight = 0.5 * kPi / 180.0, kMany = 0.1;  // of all pairs of area: a third are in a box
+  if (angles.has_right_angle) return;
+  std::vector<double> area(result.directions.size(), 0.0);
+  for (const ArrangedPlane& p : result.planes) area[p.direction] += p.area;
+  double right = 0, all = 0;
+  for (std::size_t a = 0; a < area.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      all += area[a] * area[b];
+      if (line_angle(result.directions[a].normal, result.directions[b].normal) > kPi / 2 - kRight) right += area[a] * area[b];
+    }
+  if (right > kMany * all) context.warn("planes at right angles are not related, as the angles asked for do not name 90: add it, as in --angles 60,90");
 }
 
 void record(const Selection& selection, Summary& summary) {
@@ -195,6 +210,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   find_relations(angles, result);
   find_second_order(result);
   tag_planes(result);
+  warn_of_right_angles(result, angles, context);
   context.check();
   summary.counts.emplace_back("frames", result.frames.size());
   summary.counts.emplace_back("relations", result.relations.size());

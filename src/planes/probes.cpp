@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include "planes/probes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "planes/neighbourhoods.h"
 
@@ -93,6 +95,12 @@ std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const
     if (!is_flat(probes.back().fit, space)) probes.back().fit = probe(tree.around(i, 4 * most), i, space).fit;
   }
   return probes;
+}
+
+std::vector<Probe> flat_ones(const std::vector<Probe>& probes, const Space& space) {
+  std::vector<Probe> flat;
+  std::copy_if(probes.begin(), probes.end(), std::back_inserter(flat), [&](const Probe& p) { return is_flat(p.fit, space); });
+  return flat;
 }
 
 std::vector<double> weights_of(const std::vector<Probe>& probes, const Space& space) {

@@ -32,6 +32,9 @@ std::vector<Probe> probe_few(const Survey& survey, const Space& space, std::size
 std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,
                                 std::size_t count, std::size_t most, const Context& context);
 
+/// Those whose neighbours lie on a disc, and not in space as leaves do.
+std::vector<Probe> flat_ones(const std::vector<Probe>& probes, const Space& space);
+
 /// What each probe counts for in a median over the surface rather than over the points: the area (2D: length) it stands
 /// for, so that a densely sampled corner does not decide for a whole scan. One whose neighbours are both far
 /// and no surface is a stray point, and counts for nothing.

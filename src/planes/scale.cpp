@@ -17,7 +17,8 @@ namespace unseen::planes {
 namespace {
 
 constexpr std::size_t kProbes = 2000, kNormalProbes = 128;  // for the scale; for whether normals are usable
-constexpr double kNoise = 4.0;                              // times the noise is a scale, and a tolerance
+constexpr double kSpacing = 1.25, kNoise = 4.0;             // times the spacing or the noise is a scale; times the noise a tolerance
+constexpr double kPlants = 2.0, kFewestFlat = 0.05;         // times as large a scale is made by what is not flat, if so many probes are: plants
 constexpr double kLeastTolerance = 0.5;                     // of the scale
 constexpr std::size_t kWide = 512, kWideEvery = 4;          // neighbours that tell correlated noise; of every so many probes,
 constexpr double kWideFlat = 0.2, kMostNoise = 0.8;         // if this flat (rms over spread); of the surface there is less noise on this share
@@ -37,6 +38,16 @@ double wide_noise(const Survey& survey, const Space& space, const std::vector<Pr
   return noise.empty() ? std::numeric_limits<double>::infinity() : weighted_quantile(std::move(noise), kMostNoise);
 }
 
+double noise_of(const std::vector<Probe>& probes, const Space& space) {
+  return median(probes, space, [](const Probe& p) { return p.fit.rms; });
+}
+
+/// The scale (m) that spacing and noise ask for.
+double scale_by(const std::vector<Probe>& probes, const Space& space) {
+  const double spacing = median(probes, space, [](const Probe& p) { return p.spacing; });
+  return std::max(kSpacing * spacing, kNoise * noise_of(probes, space));
+}
+
 }  // namespace
 
 Scale choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
@@ -48,12 +59,14 @@ Scale choose_scale(PointSource& source, const Survey& survey, const Space& space
   } else if (options.relative_scale) {
     scale = *options.relative_scale * extent;
   } else {
-    const std::vector<Probe> probes = survey.share < 1.0
-                                          ? probe_source(source, survey, space, kProbes, kMostNeighbours, context)
-                                          : probe_sample(survey, space, kProbes, kMostNeighbours, context);
-    const double spacing = median(probes, space, [](const Probe& p) { return p.spacing; });
-    const double noise = median(probes, space, [](const Probe& p) { return p.fit.rms; });
-    scale = std::clamp(std::max(1.25 * spacing, kNoise * noise), 1e-4 * extent, 0.1 * extent);
+    std::vector<Probe> probes = survey.share < 1.0 ? probe_source(source, survey, space, kProbes, kMostNeighbours, context)
+                                                   : probe_sample(survey, space, kProbes, kMostNeighbours, context);
+    if (!space.is_2d())
+      if (std::vector<Probe> flat = flat_ones(probes, space);
+          static_cast<double>(flat.size()) > kFewestFlat * static_cast<double>(probes.size()) && kPlants * scale_by(flat, space) < scale_by(probes, space))
+        probes = std::move(flat);
+    const double noise = noise_of(probes, space);
+    scale = std::clamp(scale_by(probes, space), 1e-4 * extent, 0.1 * extent);
     const double step = step_of_levels(survey, space, probes, scale);
     if (step == 0.0 && !space.is_2d() && kNoise * noise < scale) tolerance = std::max(kLeastTolerance * scale, kNoise * wide_noise(survey, space, probes));
     if (kStepsSpanned * step > scale) {

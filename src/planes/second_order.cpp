@@ -135,48 +135,4 @@ void find_second_order(Arrangement& result) {
   }
 }
 
-void tag_planes(Arrangement& result) {
-  if (result.two_dimensional) return;
-  // Up: the direction nearest to +z that carries the most area within 15° of it, else +z itself.
-  Vec3 up = Vec3::UnitZ();
-  std::map<int, double> area;
-  for (const ArrangedPlane& p : result.planes)
-    if (line_angle(p.plane.normal, up) < kPi / 12) area[p.direction] += p.area;
-  double most = 0;
-  for (const auto& [d, a] : area)
-    if (a > most) {
-      most = a;
-      up = result.directions[d].normal;
-    }
-  if (up.z() < 0) up = -up;
-  double low = std::numeric_limits<double>::infinity(), high = -low, largest = 0;
-  const auto height = [&](const ArrangedPlane& p) { return p.plane.offset * (p.plane.normal.dot(up) < 0 ? -1.0 : 1.0); };
-  for (const ArrangedPlane& p : result.planes) {
-    for (const Vec3& c : corners_of(p)) {
-      low = std::min(low, up.dot(c));
-      high = std::max(high, up.dot(c));
-    }
-    if (line_angle(p.plane.normal, up) < 1e-3) largest = std::max(largest, p.area);
-  }
-  const double span = high - low;
-  for (ArrangedPlane& p : result.planes) {
-    const double angle = line_angle(p.plane.normal, up);
-    if (angle < 1e-3) {
-      const bool large = p.area > 0.2 * largest;
-      if (large && height(p) - low < 0.15 * span) p.tag = "floor";
-      else if (large && high - height(p) < 0.15 * span) p.tag = "ceiling";
-      else p.tag = "horizontal";
-    } else if (angle > kPi / 2 - 1e-3) {
-      double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
-      for (const Vec3& c : corners_of(p)) {
-        bottom = std::min(bottom, up.dot(c));
-        top = std::max(top, up.dot(c));
-      }
-      p.tag = top - bottom > 0.5 * span ? "wall" : "vertical";
-    } else {
-      p.tag = "sloped";
-    }
-  }
-}
-
 }  // namespace unseen::planes

@@ -122,6 +122,16 @@ TEST(ChooseScale, StrayPointsDoNotCount) {
 }
 
 /// The two sides of a wall are one neighbourhood in a thinned sample, but not in the whole cloud.
+/// A house among trees: most points fill space, and lie on no plane.
+TEST(ChooseScale, PlantsDoNotCount) {
+  PointCloud cloud = test::plane_cloud(0.02, 0.003);
+  const double alone = scale_of(cloud), share = 0.8;
+  Random random(5);
+  for (int i = static_cast<int>(share * static_cast<double>(cloud.size())); i > 0; --i)
+    cloud.positions.emplace_back(1.5 + 2.5 * random.uniform(), 2.5 * random.uniform(), 2.5 * random.uniform());
+  EXPECT_NEAR(scale_of(cloud), alone, 0.3 * alone);
+}
+
 TEST(ChooseScale, BothSidesOfAThinWallAreNoNoise) {
   PointCloud cloud;
   Random random(12);

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planes/describe.h"
+
+namespace unseen::planes {
+namespace {
+
+/// Adds a rectangle from `low` to `high` along two edges.
+void add(Arrangement& all, const Vec3& corner, const Vec3& a, const Vec3& b) {
+  ArrangedPlane p;
+  p.plane.normal = a.cross(b).normalized();
+  p.plane.offset = p.plane.normal.dot(corner);
+  p.polygon = {{corner, corner + a, corner + a + b, corner + b}};
+  p.area = a.norm() * b.norm();
+  p.direction = static_cast<int>(all.directions.size());
+  all.directions.push_back({p.plane.normal, 0});
+  all.planes.push_back(p);
+}
+
+/// 8 × 6 m, 2.7 m high, with a table; the next storey lies 0.3 m above.
+void add_storey(Arrangement& all, double floor, double fall = 0.0) {
+  const Vec3 x(8, 0, 8 * std::tan(fall)), y(0, 6, 0), z(0, 0, 2.7);
+  add(all, {0, 0, floor}, x, y);
+  add(all, {0, 0, floor + 2.7}, Vec3(8, 0, 0), y);
+  add(all, {0, 0, floor}, Vec3(8, 0, 0), z);
+  add(all, {0, 0, floor}, y, z);
+  add(all, {3, 2, floor + 0.75}, Vec3(1.6, 0, 0), Vec3(0, 0.8, 0));
+  add(all, {3, 2, floor + 0.3}, Vec3(1.6, 0, 0), Vec3(0, 0, 0.4));
+}
+
+std::vector<std::string> tags(Arrangement all) {
+  tag_planes(all);
+  std::vector<std::string> result;
+  for (const ArrangedPlane& p : all.planes) result.push_back(p.tag);
+  return result;
+}
+
+const std::vector<std::string> kStorey = {"floor", "ceiling", "wall", "wall", "horizontal", "vertical"};
+
+TEST(Tags, OfARoomAndOfEachStorey) {
+  for (const int storeys : {1, 2, 4}) {
+    Arrangement all;
+    std::vector<std::string> expected;
+    for (int s = 0; s < storeys; ++s) {
+      add_storey(all, 3.0 * s);
+      expected.insert(expected.end(), kStorey.begin(), kStorey.end());
+    }
+    EXPECT_EQ(tags(all), expected) << storeys;
+  }
+}
+
+TEST(Tags, AFloorMayFallALittleAndASlopeDoesNot) {
+  Arrangement all;
+  add_storey(all, 0.0, 0.5 * kPi / 180.0);
+  EXPECT_EQ(tags(all), kStorey);
+  Arrangement ramp;
+  add_storey(ramp, 0.0);
+  add(ramp, {0, 7, 0}, Vec3(8, 0, 8 * std::tan(5 * kPi / 180.0)), Vec3(0, 2, 0));
+  EXPECT_EQ(tags(ramp).back(), "sloped");
+}
+
+TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
+  Arrangement all;
+  for (int i = 0; i < 12; ++i) add(all, {0.28 * i, 0, 0.17 * i}, Vec3(0.3, 0, 0), Vec3(0, 1, 0));
+  const std::vector<std::string> found = tags(all);
+  EXPECT_EQ(std::count(found.begin() + 2, found.end() - 2, "horizontal"), 8);
+}
+
+}  // namespace
+}  // namespace unseen::planes
