@@ -190,15 +190,17 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
     largest = std::max(largest, level.area);
     most_pixels = std::max(most_pixels, pixels(level));
   }
-  std::erase_if(levels, [&](const Level& level) {
-    return level.area < kSmallestGroundShare * largest && pixels(level) < kSmallestGroundShare * most_pixels;
-  });
+  const auto small = [&](const Level& level) { return level.area < kSmallestGroundShare * largest && pixels(level) < kSmallestGroundShare * most_pixels; };
+  // Where masks name the objects, a small table under them is none: what it carries counts.
+  if (!unnamed) std::erase_if(levels, small);
   weigh_levels(scan, levels, u, v);
   for (const Level& level : levels) most = std::max(most, level.carried);
+  const double least = (unnamed ? kDeskShare : kCarryShare) * most;
+  std::erase_if(levels, [&](const Level& level) { return small(level) && level.carried < kCarryShare * most; });
   const auto height = [&](const Level& level) { return up.dot(level.plane.project(Vec3::Zero())); };
   std::stable_sort(levels.begin(), levels.end(), [&](const Level& a, const Level& b) { return height(a) < height(b); });
   const auto ground = std::find_if(levels.begin(), levels.end(),
-                                   [&](const Level& level) { return level.carried >= kCarryShare * most; });
+                                   [&](const Level& level) { return level.carried >= least; });
   found.up = ground->plane.normal;
   // A surface that something was seen below ends where it was seen to end; another one goes on.
   const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) {
@@ -208,7 +210,7 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   add_support(found, scan, *ground, SupportKind::ground, ends ? lifted(*ground, u, v) : std::vector<Vec3>{});
 
   for (const Level& level : levels)
-    if (unnamed && &level > &*ground && level.carried >= kDeskShare * most && level.plane.normal.dot(found.up) > kHorizontal)
+    if (unnamed && &level > &*ground && level.carried >= least && level.plane.normal.dot(found.up) > kHorizontal)
       add_support(found, scan, level, SupportKind::desk, lifted(level, u, v));
 
   const double smallest_wall = kWallShare * std::pow(scene_radius(scan), 2);
