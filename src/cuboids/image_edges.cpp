@@ -8,6 +8,7 @@
 
 #include "cuboids/edge_search.h"
 #include "cuboids/observation.h"
+#include "cuboids/slabs.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -26,6 +27,7 @@ constexpr double kSeenSide = 1.5;                // mm, σ of a side that was se
 constexpr double kStanding = 1e-5;               // m, σ of a bottom that stands on the ground
 constexpr double kTurn = 0.02;                   // rad, σ of the turn
 constexpr double kSlack = 0.0005;                // m that the points may be farther from the box on average
+constexpr double kMoreFree = 0.005;              // of the box, that may be space that was seen free
 
 /// What is sought of a box: how far each side moves outward (m; −x, +x, −y, +y, −z, +z) and its turn about its third axis.
 using Change = std::array<double, 7>;
@@ -224,7 +226,11 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
       if (stands_on(seen.supports.front(), cuboid.box)) depth.inside[4] = depth.outside[4] = kStanding;
       const OrientedBox aligned = changed(cuboid.box, align(problem, cuboid.box, samples[k], depth));
       if (aligned.half_size.minCoeff() <= 0.0) continue;
-      if (misfit(aligned, points[k]) <= misfit(cuboid.box, points[k]) + kSlack) cuboid.box = cuboid.initial = aligned;
+      if (misfit(aligned, points[k]) > misfit(cuboid.box, points[k]) + kSlack) continue;
+      // What reaches into space that was seen free could not go down behind what hides it.
+      const double voxel = std::max(2.0 * view.spacing(cuboid.box.center), sigma);
+      if (filled_share(view, aligned, voxel) < filled_share(view, cuboid.box, voxel) - kMoreFree) continue;
+      cuboid.box = cuboid.initial = aligned;
     }
   };
   parallel_blocks(context, cuboids.size(), 1, one);
