@@ -186,12 +186,12 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
   } else {
     const FoundUp told = frame.up ? FoundUp{frame.up->normalized()} : find_up(scan);
     const Vec3& up = told.up;
-    if (!up.allFinite() || up.norm() < 0.5) throw InputError(frame.name, "depth", "no plane", "a surface to stand on");
+    if (!up.allFinite() || up.norm() < 0.5) throw InputError(frame.name, "depth", "no plane", "a surface to stand on in the picture (or --support)");
     found = find_supports(scan, up, flat.unnamed);
     if (frame.up && found.upside_down)
-      throw InputError(frame.name, "up", "a direction that only undersides face", "the direction against gravity");
+      throw InputError(frame.name, "up", "a direction that only undersides face", "the direction against gravity, and a surface to stand on in the picture (or --support)");
     if (found.supports.empty())
-      throw InputError(frame.name, "depth", "no horizontal plane", "a surface to stand on");
+      throw InputError(frame.name, "depth", "no horizontal plane", "a surface to stand on that no mask names, in the picture or by --support");
     if (frame.up && found.up.dot(up) < kSameUp) found.up = up;
     if (!frame.up && scan.is_image) remark_on_up(told, found.up, context);
   }

@@ -196,7 +196,6 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   weigh_levels(scan, levels, u, v);
   for (const Level& level : levels) most = std::max(most, level.carried);
   const double least = (unnamed ? kDeskShare : kCarryShare) * most;
-  std::erase_if(levels, [&](const Level& level) { return small(level) && level.carried < kCarryShare * most; });
   const auto height = [&](const Level& level) { return up.dot(level.plane.project(Vec3::Zero())); };
   std::stable_sort(levels.begin(), levels.end(), [&](const Level& a, const Level& b) { return height(a) < height(b); });
   const auto ground = std::find_if(levels.begin(), levels.end(),

@@ -130,6 +130,21 @@ TEST(Walls, AreNotPiercedByWhatStandsAgainstThem) {
   }
 }
 
+/// A side table far away, of less than a tenth of the floor's pixels: what masks name stands on it, and on the floor beside it.
+TEST(Desks, ThatAreSmallInThePictureCarryWhatMasksName) {
+  Scene scene;
+  scene.height = 1.5;
+  scene.boxes = {upright(-0.1, 2.3, 0.5, {0.15, 0.12, 0.1}, 10), upright(0.12, 2.35, 0.5, {0.1, 0.12, 0.15}, -15), upright(0.7, 2.0, 0.0, {0.15, 0.15, 0.15}, 5),
+                 upright(0.0, 2.35, 0.0, {0.6, 0.4, 0.5}, 0)};
+  RgbdFrame frame = render(scene);
+  for (const auto& color : frame.color) frame.masks.push_back(color[2] == 120 ? 1 : color[2] == 240 ? 2 : color[2] == 104 ? 3 : 0);  // by their shade
+  Context context;
+  const Completion completion = complete_cuboids(frame, {}, context);
+  EXPECT_EQ(completion.cuboids.size(), 3u);
+  EXPECT_TRUE(completion.unsupported.empty());
+  EXPECT_TRUE(std::any_of(completion.supports.begin(), completion.supports.end(), [](const Support& s) { return s.kind == SupportKind::desk; }));
+}
+
 TEST(Walls, LeaveAThinPanelThatAMaskNames) {
   Scene scene = before_a_wall(2.5);
   scene.boxes[0] = upright(0.1, 2.5 - 0.015, 0, {1.0, 0.03, 0.8}, 0);

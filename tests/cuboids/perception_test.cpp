@@ -239,5 +239,26 @@ TEST(ImageEdges, WinBackWhatTheSensorDropped) {
   EXPECT_EQ(off.cuboids[0].box.half_size, off.fitted[0].box.half_size);
 }
 
+/// The picture shows a rim around the box, a shadow say, but depth saw the ground there.
+TEST(ImageEdges, DoNotPullABoxIntoFreeSpace) {
+  constexpr int kRim = 6;  // pixels
+  Scene scene;
+  scene.height = 1.2;
+  scene.pitch = radians(80.0);
+  scene.noise = 0.0006;
+  scene.boxes = {upright(0.0, 0.2, 0, {0.2, 0.15, 0.3}, 10)};
+  RgbdFrame frame = render(scene);
+  const auto color = frame.color;
+  for (int v = kRim; v + kRim < scene.image_height; ++v)
+    for (int u = kRim; u + kRim < scene.width; ++u)
+      for (int dv = -kRim; dv <= kRim; ++dv)
+        for (int du = -kRim; du <= kRim; ++du)
+          if (const std::size_t i = static_cast<std::size_t>(v) * scene.width + u, j = i + dv * scene.width + du; color[i][0] == 60 && color[j][0] != 60)
+            frame.color[i] = color[j];
+  const Perceived p = perceive(frame);
+  ASSERT_EQ(p.cuboids.size(), 1u);
+  for (int k = 0; k < 3; ++k) EXPECT_LT(p.cuboids[0].box.half_size[k], p.fitted[0].box.half_size[k] + 0.002);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test
