@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kFewest = 4;   // sightings of a flight
 constexpr double kExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
-constexpr double kUsualTilt = 0.2;   // rad, of a camera whose down is not given
 
 /// A body's sightings in order of time; empty if a frame has two.
 std::vector<Candidate> sightings_of(const Candidates& candidates, int body) {
@@ -92,7 +91,7 @@ class Flights {
       }
     }
     const Problem problem = problem_of(shot_, Options{}, camera_, solids_, tracks, meeting);
-    double sum = given_ ? 0.0 : 0.5 * std::pow(line_angle(*shot_.down, Vec3::UnitY()) / kUsualTilt, 2);
+    double sum = given_ ? 0.0 : 0.5 * std::pow(line_angle(*shot_.down, Vec3::UnitY()) / kDownSigma, 2);
     std::vector<Vec3> impulses;
     for (const auto& seen : bodies) {
       const int body = seen.front().body >= 0 ? seen.front().body : 0;

@@ -18,10 +18,6 @@ struct Other {
   double unlikely, restitution, mass_ratio;  // the first: −log of its likelihood and of the focal length's
 };
 
-double restitution_in(const Problem& problem, const State& state) {
-  return std::clamp(restitution<double>(problem, state, values_of(problem, state)), 0.0, 1.0);
-}
-
 void stretch(Problem& problem, double factor) {
   problem.camera.fx *= factor;
   problem.camera.fy *= factor;
@@ -37,7 +33,7 @@ void stretch(State& state, double factor) {
 
 FocalError error_by_focal_length(const Solution& solution) {
   if (!solution.problem.focal_assumed || solution.problem.planar) return {};
-  const double c = restitution_in(solution.problem, solution.fit.state), m = solution.fit.state.mass_ratio;
+  const double c = bounded_restitution(solution.problem, solution.fit.state), m = solution.fit.state.mass_ratio;
   std::vector<Other> others = {{solution.fit.cost, c, m}};
   for (const double step : {2.0 / kSteps, -2.0 / kSteps}) {
     Problem problem = solution.problem;
@@ -46,7 +42,7 @@ FocalError error_by_focal_length(const Solution& solution) {
       stretch(problem, std::exp(kSigma * step));
       stretch(fit.state, std::exp(kSigma * step));
       fit = settle(problem, fit.state);
-      if (fit.usable) others.push_back({fit.cost + 0.5 * step * step * i * i, restitution_in(problem, fit.state), fit.state.mass_ratio});
+      if (fit.usable) others.push_back({fit.cost + 0.5 * step * step * i * i, bounded_restitution(problem, fit.state), fit.state.mass_ratio});
     }
   }
   const auto less = [](const Other& a, const Other& b) { return a.unlikely < b.unlikely; };

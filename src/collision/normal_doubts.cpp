@@ -64,7 +64,7 @@ void doubt_level(Solution& solution) {
   State tilted = fit.state;
   tilted.law.reset();
   tilted.x = tilted.p[0] - problem.solids[0].radius * tilted.impulse.normalized();
-  const double c = std::clamp(restitution<double>(problem, tilted, values_of(problem, tilted)), 0.0, 1.0);
+  const double c = bounded_restitution(problem, tilted);
   const double tilt = degrees(line_angle(fit.state.impulse, fit.state.down));
   solution.others.push_back({fmt::format("a floor that is tilted by {:.0f}°, where a level one needs a ball that spins: c = {:.2f}", tilt, c), c, fit.state.mass_ratio, 0.0});
 }
@@ -96,7 +96,7 @@ void doubt_lever(Solution& solution) {
     straight += inverse;
     spinning += inverse * (solid.is_sphere() ? 1.0 : 1.0 + std::pow(kLever * solid.mass.extent, 2) / solid.mass.inertia.mean());
   }
-  const double central = std::clamp(restitution<double>(problem, state, values_of(problem, state)), 0.0, 1.0);
+  const double central = bounded_restitution(problem, state);
   const double c = std::min(1.0, (1.0 + central) * spinning / straight - 1.0);
   if (c - central > kOtherValue)
     solution.others.push_back({fmt::format("a hit off the centre, from which bodies spin: c = {:.2f}", c), c, state.mass_ratio, 0.0});

@@ -13,7 +13,6 @@ namespace {
 constexpr double kAir = 1.2;              // kg/m³
 constexpr double kSphereSize = 0.04;      // share by which all projected sizes of a flight may be off together
 constexpr double kOtherSize = 0.12;       // the same where the projected size depends on the orientation
-constexpr double kDownSigma = 0.2;        // rad: hand-held cameras look up or down a little
 constexpr double kDownGivenSigma = 0.01;  // rad, of a direction that the shot gives
 constexpr double kFloor = 0.5;            // rad off up: a given normal that is no farther is a floor's, and
 constexpr double kLevelSigma = 0.02;      // rad, floors are level

@@ -11,6 +11,8 @@
 
 namespace unseen::collision {
 
+constexpr double kDownSigma = 0.2;  ///< rad: hand-held cameras look up or down a little, where down is not given
+
 /// The camera with nothing left open: focal lengths from the field of view, the principal point in the middle. Throws InputError if the
 /// image size is not known.
 ShotCamera complete_camera(const Shot& shot, int width, int height);

@@ -127,7 +127,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
       context.check();
       const Fit fit = settle(drawn[i], solution.fit.state);
       if (!fit.usable) continue;
-      c[i] = std::clamp(restitution<double>(drawn[i], fit.state, values_of(drawn[i], fit.state)), 0.0, 1.0);
+      c[i] = bounded_restitution(drawn[i], fit.state);
       m[i] = fit.state.mass_ratio;
     }
   });

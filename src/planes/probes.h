@@ -24,13 +24,13 @@ struct Probe {
 std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::size_t count, std::size_t most,
                                 const Context& context);
 
-/// Some hundred probes of the sample, of each the nearest kFewestNeighbours.
-std::vector<Probe> probe_few(const Survey& survey, const Space& space, std::size_t count, const Context& context);
-
 /// The same among all points of the source. Where even `most` of them are no flat disc, and where points are too sparse to be gathered, those of
 /// the sample tell.
 std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,
                                 std::size_t count, std::size_t most, const Context& context);
+
+/// Some hundred probes of the sample, of each the nearest kFewestNeighbours.
+std::vector<Probe> probe_few(const Survey& survey, const Space& space, std::size_t count, const Context& context);
 
 /// Those whose neighbours lie on a disc, and not in space as leaves do.
 std::vector<Probe> flat_ones(const std::vector<Probe>& probes, const Space& space);

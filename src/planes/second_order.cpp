@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 
 #include "planes/describe.h"
 
