@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -11,6 +13,8 @@
 
 namespace unseen::io {
 namespace {
+
+constexpr double kFaint = 0.6, kManyFaint = 0.35;  // of the dark pixels; an anti-aliased line one pixel wide has half as many
 
 /// Brightness of each pixel in [0,1], over white where the image is transparent.
 cv::Mat brightness(cv::Mat image) {
@@ -39,17 +43,23 @@ std::unique_ptr<PointSource> open_image(const Input& input) {
     throw InputError("read options", "threshold", std::to_string(threshold), "a number 0…1");
   const cv::Mat grey = brightness(decode_image(input.view(), input.name));
   PointCloud cloud;
+  std::size_t faint = 0;
   for (int row = 0; row < grey.rows; ++row)
-    for (int column = 0; column < grey.cols; ++column)
-      if (static_cast<double>(grey.at<float>(row, column)) < threshold)
-        cloud.positions.emplace_back(column, grey.rows - 1 - row, 0.0);
+    for (int column = 0; column < grey.cols; ++column) {
+      const double value = grey.at<float>(row, column);
+      if (value < threshold) cloud.positions.emplace_back(column, grey.rows - 1 - row, 0.0);
+      faint += value >= threshold && value < kFaint;
+    }
   if (cloud.size() == 0)
-    throw InputError(input.name, "pixels", "none darker than " + std::to_string(threshold), "dark pixels");
+    throw InputError(input.name, "pixels", "none darker than " + std::to_string(threshold), "dark pixels (--threshold says how dark)");
+  const bool gaps = static_cast<double>(faint) > kManyFaint * static_cast<double>(cloud.size());
   SourceInfo info;
   info.name = input.name;
   info.two_dimensional = true;
   info.notes.push_back(count_of(cloud.size(), "dark pixel") + " of " + std::to_string(grey.cols) + " x " +
                        std::to_string(grey.rows));
+  if (gaps)
+    info.notes.push_back(count_of(faint, "grey pixel") + " left out: thin lines may have gaps; --threshold " + fmt::format("{}", kFaint) + " keeps them whole");
   return std::make_unique<OwnedCloudSource>(std::move(cloud), std::move(info));
 }
 

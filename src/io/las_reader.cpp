@@ -105,6 +105,7 @@ class LasSource final : public PointSource {
         fail(name + " offset", std::to_string(column.shift), "a finite number");
       columns_.push_back(column);
     }
+    check_not_degrees();
     if (kColor[format_] == 0) return;
     for (std::size_t i = 0; i < 3; ++i) {
       Column column;
@@ -114,6 +115,18 @@ class LasSource final : public PointSource {
       column.scale = 1.0 / 257.0;
       columns_.push_back(column);
     }
+  }
+
+  /// Longitude and latitude are stored in steps of some 1e-7, finer by far than the heights beside them.
+  void check_not_degrees() const {
+    constexpr double kFinest = 1e-5, kRougher = 100;
+    const auto within = [&](std::size_t axis, double most) {
+      const auto high = at<double>(179 + 16 * axis), low = at<double>(187 + 16 * axis);
+      return low < high && low >= -most && high <= most;
+    };
+    const double x = std::abs(columns_[0].scale), y = std::abs(columns_[1].scale), z = std::abs(columns_[2].scale);
+    if (within(0, 180) && within(1, 90) && x <= kFinest && y <= kFinest && z >= kRougher * x && z >= kRougher * y)
+      fail("x, y", "longitude and latitude in degrees", "metres: project it first, as to UTM, with PDAL, las2las or QGIS");
   }
 
   /// The format wants colours from 0 to 65535; many files hold 0 to 255.

@@ -99,7 +99,18 @@ class Guess {
     const auto has = [&](Role role) {
       return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return role_of_name(n, false, "") == role; });
     };
-    if (has(Role::x) && has(Role::y)) names_ = std::move(names);
+    if (has(Role::x) && has(Role::y)) {
+      names_ = std::move(names);
+    } else if (names_degrees(names)) {
+      fail("columns", "longitude and latitude in degrees", "x, y and z in metres: project it first, as to UTM");
+    }
+  }
+
+  static bool names_degrees(const std::vector<std::string>& names) {
+    const auto has = [&](std::initializer_list<const char*> known) {
+      return std::any_of(names.begin(), names.end(), [&](const std::string& n) { return std::find(known.begin(), known.end(), lower(n)) != known.end(); });
+    };
+    return has({"lon", "lng", "long", "longitude"}) && has({"lat", "latitude"});
   }
 
   void guess_separator(std::string_view line) {
@@ -168,8 +179,8 @@ class Guess {
            });
   }
 
-  void set_three(std::size_t column, Role first) {
-    for (std::size_t i = 0; i < 3; ++i)
+  void set_three(std::size_t column, Role first, std::size_t count = 3) {
+    for (std::size_t i = 0; i < count; ++i)
       layout_.columns[column + i].role = static_cast<Role>(static_cast<std::size_t>(first) + i);
   }
 
@@ -199,14 +210,22 @@ class Guess {
     return scale;
   }
 
+  /// Point numbers in the first of four or more columns. Where the second one stays the same, it may be a grid's first row.
+  bool first_counts_rows() const {
+    if (width_ < 4 || sample_.size() < 3) return false;
+    for (std::size_t r = 0; r < sample_.size(); ++r)
+      if (sample_[r][0] != sample_[0][0] + static_cast<double>(r) || sample_[r][0] != std::floor(sample_[r][0])) return false;
+    return std::any_of(sample_.begin(), sample_.end(), [&](const Row& row) { return row[1] != sample_[0][1]; });
+  }
+
   void roles_from_values() {
-    layout_.columns[0].role = Role::x;
-    layout_.columns[1].role = Role::y;
-    if (width_ > 2) layout_.columns[2].role = Role::z;
+    const std::size_t first = first_counts_rows() ? 1 : 0;
+    if (first == 1) layout_.notes.push_back("the first column counts the rows: left out");
+    set_three(first, Role::x, std::min<std::size_t>(width_, 3));
     // x y z intensity r g b is what scanners write; the intensity may look like a colour.
-    if (width_ == 7 && !unit_at(3) && bytes_at(4)) return set_colors(4);
+    if (width_ == first + 7 && !unit_at(first + 3) && bytes_at(first + 4)) return set_colors(first + 4);
     bool normals = false, colors = false;
-    for (std::size_t c = 3; c + 3 <= width_;) {
+    for (std::size_t c = first + 3; c + 3 <= width_;) {
       if (!normals && unit_at(c)) {
         set_three(c, Role::nx);
         normals = true;

@@ -47,7 +47,8 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
   std::vector<std::pair<double, double>> squares;  // of tilts, over the systematic doubt; the patch's area
   for (std::size_t f = 0; f < s.frames.size(); ++f) {
     if (members[f].size() < kFewestMembers) continue;
-    const OrientationFrame frame = refit_frame(s.frames[f], locals, members[f]);
+    constexpr bool kByArea = true;  // what is in the frame by chance is small, and must not turn it
+    const OrientationFrame frame = refit_frame(s.frames[f], locals, members[f], kByArea);
     const double tilts = 2.0 * static_cast<double>(members[f].size()), fitted = tilts / (tilts - kTurns);
     for (const auto& [patch, local] : members[f]) {
       const Vec3 n = frame.direction(locals[local]);

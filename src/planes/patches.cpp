@@ -177,6 +177,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   regions = merge_regions(grid, cells, space, angle, uncut, context);
   regions = split_regions(grid, space, std::move(regions), context, uncut);
   regions = drop_rims(grid, cells, space, std::move(regions), context);
+  regions = drop_strays(grid, space, std::move(regions), context);
 
   Patches result;
   result.least_noise = half_typical_noise(grid, space, regions);

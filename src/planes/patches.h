@@ -59,5 +59,7 @@ CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& s
 /// planes meet, not structures of their own.
 CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space, CellSets regions,
                    Context& context);
+/// Leaves out single voxels that lie farther from their region's plane than its noise explains: outliers pull small regions round.
+CellSets drop_strays(const VoxelGrid& grid, const Space& space, CellSets regions, const Context& context);
 
 }  // namespace unseen::planes

@@ -151,7 +151,7 @@ void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, do
 }  // namespace
 
 OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
-                             const std::vector<std::pair<const Patch*, int>>& members) {
+                             const std::vector<std::pair<const Patch*, int>>& members, bool by_area) {
   OrientationFrame result = frame;
   for (int iteration = 0; iteration < 5; ++iteration) {
     Mat3 information = Mat3::Zero();
@@ -159,8 +159,9 @@ OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Ve
     for (const auto& [patch, local] : members)
       for (const TiltResidual& r :
            tilt_residuals(patch->fit, result.direction(locals[local]), patch->doubt_u, patch->doubt_v)) {
-        information += r.weight * r.jacobian * r.jacobian.transpose();
-        gradient -= r.weight * r.value * r.jacobian;
+        const double weight = by_area ? r.weight * patch->area : r.weight;
+        information += weight * r.jacobian * r.jacobian.transpose();
+        gradient -= weight * r.value * r.jacobian;
       }
     Eigen::SelfAdjointEigenSolver<Mat3> eigen(information);
     Vec3 w = Vec3::Zero();

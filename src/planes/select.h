@@ -29,9 +29,9 @@ std::vector<OrientationFrame> propose_frames(const Patches& patches, const std::
                                              const Context& context = Context());
 
 /// Least-squares rotation of a frame to patches that have given directions of it, each weighted by its own
-/// fit's variance. An open frame, or one with members of a single direction, turns as little as it must.
+/// fit's variance and, where asked, by its area. An open frame, or one with members of a single direction, turns as little as it must.
 OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
-                             const std::vector<std::pair<const Patch*, int>>& members);
+                             const std::vector<std::pair<const Patch*, int>>& members, bool by_area = false);
 
 /// The numbers of a selection problem for some patches and frames. `known` is the problem of the same patches
 /// and the first of these frames, if it was made before: what it knows is taken over.

@@ -95,6 +95,20 @@ TEST(Image, TransparentIsWhiteAndJpegIsRead) {
   EXPECT_EQ(read({bytes.begin(), bytes.end()}, "a.jpg").size(), 64u);
 }
 
+TEST(Image, SaysThatThinLinesMayHaveGaps) {
+  const auto notes_of = [](int least, int most) {  // of a line whose darkness runs from one to the other along it
+    cv::Mat image(9, 101, CV_8U, cv::Scalar(255));
+    for (int x = 0; x < image.cols; ++x) image.at<std::uint8_t>(4, x) = static_cast<std::uint8_t>(least + (most - least) * x / 100);
+    std::vector<unsigned char> bytes;
+    cv::imencode(".png", image, bytes);
+    return open_points_in_memory({bytes.begin(), bytes.end()}, "a.png")->info().notes;
+  };
+  EXPECT_EQ(notes_of(0, 130).size(), 1u);  // a fifth is grey
+  ASSERT_EQ(notes_of(0, 200).size(), 2u);  // half as many grey pixels as dark ones
+  EXPECT_NE(notes_of(0, 200)[1].find("--threshold 0.6"), std::string::npos);
+  expect_read_error(png8({"   "}), "bad.png", {"--threshold"});
+}
+
 TEST(Image, FaultsNameFileAndField) {
   expect_read_error(png8({"   "}), "bad.png", {"pixels", "dark"});
   expect_read_error(png8({"# #"}).substr(0, 20), "bad.png", {"image", "header"});

@@ -46,6 +46,24 @@ TEST(Las, FaultsNameFileAndField) {
   expect_read_error("ASTM-E57 and more", "scan.e57", {"E57", "CloudCompare"});
 }
 
+TEST(Las, DegreesAreNoMetres) {
+  const auto with = [](double xy_scale, double z_scale, double high_x) {
+    std::string s = las(0, 2);
+    const auto set = [&](std::size_t at, double value) {
+      std::string bytes;
+      put(bytes, value);
+      s.replace(at, 8, bytes);
+    };
+    set(131, xy_scale), set(139, xy_scale), set(147, z_scale);
+    set(179, high_x), set(187, 11.57), set(195, 48.15), set(203, 48.14);
+    return s;
+  };
+  expect_read_error(with(1e-7, 1e-3, 11.58), "bad.las", {"x, y", "degrees", "metres"});
+  EXPECT_EQ(read(with(1e-7, 1e-7, 11.58), "a.las").size(), 2u);  // a small thing, finely measured
+  EXPECT_EQ(read(with(1e-7, 1e-3, 690.0), "a.las").size(), 2u);
+  EXPECT_EQ(read(with(1e-3, 1e-3, 11.58), "a.las").size(), 2u);
+}
+
 TEST(Ptx, PosesColoursAndNoReturns) {
   const auto source = open_points_in_memory(ptx(), "a.ptx");
   const PointCloud cloud = read_all(*source);

@@ -49,6 +49,22 @@ TEST(Text, WiderRows) {
             std::string::npos);
 }
 
+TEST(Text, PointNumbersAreNoCoordinate) {
+  const auto source = open_points_in_memory("17 5 2 0\n18 6 3 1\n19 5 4 0.5\n", "a.txt");
+  EXPECT_EQ(read_all(*source).positions, (std::vector<Vec3>{Vec3(5, 2, 0), Vec3(6, 3, 1), Vec3(5, 4, 0.5)}));
+  EXPECT_NE(source->info().notes[0].find("counts the rows"), std::string::npos);
+  const PointCloud colored = read("1 5 2 0 255 0 9\n2 6 3 1 0 0 9\n3 5 4 0.5 255 0 9\n", "a.csv");
+  EXPECT_EQ(colored.colors[0], (std::array<std::uint8_t, 3>{255, 0, 9}));
+  EXPECT_EQ(read("0 5 2 7\n1 5 3 7\n2 5 4 7\n", "a.txt").positions[2], Vec3(2, 5, 4));  // the first row of a grid
+  EXPECT_EQ(read("0 5 2\n1 6 3\n2 5 4\n", "a.txt").positions[2], Vec3(2, 5, 4));
+  EXPECT_EQ(read("0 5 2 7\n1 6 3 7\n3 5 4 7\n", "a.txt").positions[2], Vec3(3, 5, 4));
+}
+
+TEST(Text, DegreesAreNoMetres) {
+  expect_read_error("Latitude,Longitude,height\n48.1,11.5,520\n48.2,11.6,521\n", "bad.csv", {"columns", "degrees", "UTM"});
+  EXPECT_EQ(read("x y lat\n48.1 11.5 520\n48.2 11.6 521\n", "a.txt").size(), 2u);
+}
+
 TEST(Text, ANamedHeaderDecides) {
   const PointCloud cloud = read("label,z,y,x,r,g,b,remark\n4,3,2,1,0.5,0,1,wall\n5,6,5,4,0,0,0,\n", "a.csv");
   EXPECT_EQ(cloud.positions[1], Vec3(4, 5, 6));

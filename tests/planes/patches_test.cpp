@@ -196,6 +196,31 @@ TEST(DropRims, RimsGoAndStructuresStay) {
   EXPECT_TRUE(std::find(kept.begin(), kept.end(), bevel) == kept.end());
 }
 
+/// Single points on either side of a surface go; its own noise and what stands on it stay.
+TEST(DropStrays, OutliersGoAndNoiseStays) {
+  PointCloud cloud;
+  Random random(4);
+  test::add_rectangle(cloud, {0, 0, 0.025}, {2, 0, 0}, {0, 1, 0}, 0.05, 0.002, random);
+  const std::size_t surface = cloud.size();
+  for (int i = 0; i < 40; ++i)
+    cloud.positions.emplace_back(0.05 * (i % 8) * 5 + 0.02, 0.05 * (i / 8) * 4 + 0.02, i % 3 == 0 ? 0.06 : -0.03);
+  const std::size_t strays = cloud.size() - surface;
+  test::add_rectangle(cloud, {0.5, 0.98, 0.06}, {0.4, 0, 0}, {0, 0.02, 0}, 0.05, 0.0, random);  // a ledge
+  Scene scene(cloud);
+  const CellSets kept = drop_strays(scene.grid, scene.space, scene.all(), scene.context);
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_TRUE(std::is_sorted(kept[0].begin(), kept[0].end()));
+  EXPECT_NEAR(sum_of(scene.grid, kept[0]).count, static_cast<double>(cloud.size() - strays), 0.01 * static_cast<double>(surface));
+  double above = 0, below = 0;
+  for (const int i : kept[0]) {
+    above += scene.grid.moments[i].mean.z() > 0.05 ? 1 : 0;
+    below += scene.grid.moments[i].mean.z() < 0.0 ? 1 : 0;
+  }
+  EXPECT_EQ(below, 0);
+  EXPECT_GE(above, 6);  // the ledge
+  EXPECT_EQ(drop_strays(scene.grid, scene.space, kept, scene.context), kept);
+}
+
 /// The stated variance of a tilt against the scatter of fits over many draws of the same noise.
 TEST(MakePatch, TiltVarianceIsThatOfRepeatedScans) {
   double observed_u = 0, observed_v = 0, stated_u = 0, stated_v = 0;
