@@ -39,8 +39,12 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
                                  const Space& space, Arrangement& result, const Context& context) {
   // The largest planes first: ids are stable and lists start with what matters.
   std::vector<int> order;
+  const auto on_plane = [&](std::size_t p) {  // the last refit may have carried a plane off its points
+    const Plane plane = model.plane(model.parts[p]);
+    return sums[p].squared_distances(plane.normal, plane.offset) < sums[p].count * grid.tolerance * grid.tolerance;
+  };
   for (std::size_t p = 0; p < model.parts.size(); ++p)
-    if (sums[p].count >= 3) order.push_back(static_cast<int>(p));
+    if (sums[p].count >= 3 && on_plane(p)) order.push_back(static_cast<int>(p));
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return model.parts[a].cells.size() > model.parts[b].cells.size();
   });

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planes/describe.h"
+#include "planes/scenes.h"
 
 namespace unseen::planes {
 namespace {
@@ -68,6 +69,30 @@ TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
   for (int i = 0; i < 12; ++i) add(all, {0.28 * i, 0, 0.17 * i}, Vec3(0.3, 0, 0), Vec3(0, 1, 0));
   const std::vector<std::string> found = tags(all);
   EXPECT_EQ(std::count(found.begin() + 2, found.end() - 2, "horizontal"), 8);
+}
+
+/// Level planes 0.1 m apart, of whose points the first lie on theirs, the second beside it, and of the third there are two.
+TEST(Describe, LeavesOutWhatLiesOffItsPointsOrHasNone) {
+  PointCloud cloud;
+  Random random(1);
+  Model model;
+  model.frames = {{Mat3::Identity(), true}};
+  model.locals = {Vec3::UnitZ()};
+  std::vector<Moments> sums;
+  const std::array<double, 3> off = {0.0, 0.012, 0.0}, count = {100, 100, 2};
+  for (int i = 0; i < 3; ++i) {
+    test::add_rectangle(cloud, {0, 0, 0.1 * i + 0.005}, {1, 0, 0}, {0, 1, 0}, 0.01, 0.0, random);
+    model.surfaces.push_back({0, 0, {}, 0.1 * i + 0.005});
+    model.parts.push_back({i, {}});
+    sums.push_back({count[static_cast<std::size_t>(i)], Vec3(0.5, 0.5, 0.1 * i + 0.005 + off[static_cast<std::size_t>(i)]), Mat3::Zero()});
+  }
+  VoxelGrid grid = test::grid_of(cloud, 0.01);
+  grid.tolerance = 0.01;
+  for (std::size_t v = 0; v < grid.size(); ++v) model.parts[static_cast<std::size_t>(std::lround(10 * grid.moments[v].mean.z()))].cells.push_back(static_cast<int>(v));
+  Arrangement result;
+  EXPECT_EQ(describe_planes(model, sums, grid, {}, result, Context()), (std::vector<int>{0, -1, -1}));
+  ASSERT_EQ(result.planes.size(), 1u);
+  EXPECT_NEAR(result.planes[0].area, 1.0, 0.05);
 }
 
 }  // namespace
