@@ -101,6 +101,29 @@ TEST(Askew, AFenceHiddenInBetweenKeepsItsDirection) {
   EXPECT_GT(static_cast<double>(right), 0.97 * static_cast<double>(wall));
 }
 
+/// Houses along a bend, each turned by 0.4° from the one before: 18 mm at either end, several times the noise.
+TEST(Askew, HousesAlongABendKeepTheirDirections) {
+  constexpr int kHouses = 7;
+  PointCloud cloud;
+  Random random(9);
+  std::vector<std::size_t> first;
+  std::vector<Vec3> normals;
+  for (int i = 0; i < kHouses; ++i) {
+    const Vec3 along = Eigen::AngleAxisd(radians(0.4 * i), Vec3::UnitZ()) * Vec3(Vec3::UnitX());
+    first.push_back(cloud.size());
+    normals.push_back(along.cross(Vec3::UnitZ()));
+    test::add_rectangle(cloud, Vec3(9.0 * i, i % 2 == 0 ? 0.0 : 0.6, 0) - 4.4 * along, 8.8 * along, {0, 0, 8.0 + i % 3}, 0.12, 0.004, random);
+  }
+  first.push_back(cloud.size());
+  test::add_rectangle(cloud, {-5, -8, 0}, {64, 0, 0}, {0, 8, 0}, 0.12, 0.004, random);
+  const test::Run r = test::run(cloud, test::with_scale(0.15));
+  std::size_t right = 0;
+  for (int h = 0; h < kHouses; ++h)
+    for (std::size_t i = first[h]; i < first[h + 1]; ++i)
+      right += r.plane_of_point[i] >= 0 && line_angle(r.result.planes[r.plane_of_point[i]].plane.normal, normals[h]) < radians(0.05);
+  EXPECT_GT(static_cast<double>(right), 0.95 * static_cast<double>(first.back()));
+}
+
 /// A hall of 40 m whose floor falls by 0.45°, 31 cm in all: little of an angle, but many times the noise.
 TEST(Askew, AFloorThatFallsGentlyKeepsItsPoints) {
   PointCloud cloud;

@@ -248,7 +248,7 @@ TEST(RefitHeld, ManySmallSurfacesDoNotCarryALargeOneAway) {
 TEST(RefitHeld, WhatIsNotFlatStaysInItsFrame) {
   Model rough = ground_and_tops(0.3), coarse = ground_and_tops(0.03);
   refit_held(rough, 0.3, Space());
-  refit_held(coarse, 3.0, Space());
+  refit_held(coarse, 6.0, Space());
   EXPECT_EQ(rough.surfaces[0].frame, 0);
   EXPECT_EQ(coarse.surfaces[0].frame, 0);
 }
