@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -66,6 +68,9 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
 
   const double finest = kFinestVoxel * radius_of(seen, parts);
   std::vector<OrientedBox> set_downs;
+  for (const auto& [label, density] : frame.densities)
+    if (std::none_of(parts.begin(), parts.end(), [&](const ObjectPart& part) { return part.label == label; }))
+      context.warn(fmt::format("densities: \"{}\" is the label of no object in the picture: its density is not used", label));
   const auto object_of = [&](const ObjectPart& part) {
     const auto first = std::find_if(parts.begin(), parts.end(), [&](const ObjectPart& other) {
       return &other == &part || (!part.label.empty() && other.label == part.label);

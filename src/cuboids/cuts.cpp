@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include "cuboids/box_fit.h"
@@ -28,6 +27,7 @@ constexpr double kPrice = 0.02;             // of a hull: free space that one mo
 constexpr double kFlat = 0.9;               // of the points, on sides of boxes
 constexpr int kFewestFlatPoints = 24;
 constexpr int kFirstCuts = 16, kFinerCuts = 4;
+constexpr std::size_t kTried = 4;  // of the best cuts of clumps, until one parts the points as well
 const double kParallelCosine = std::cos(radians(10.0));
 
 /// Groups of connected members among 0 … count − 1 that lie on the same side (1 or 2) each; sides are spent.
@@ -81,8 +81,8 @@ double left_by_cut(const Interior& interior, const Clumps& clumps, const Piece& 
   return pieces < 2 || kept < kKept * static_cast<double>(whole.points.size()) ? std::numeric_limits<double>::infinity() : left;
 }
 
-/// The cut that leaves the least free space within the pieces' hulls: across one of the axes, or along what is seen of a face.
-std::optional<Plane> best_cut(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const Piece& whole) {
+/// The cuts that leave the least free space within the pieces' hulls: across one of the axes, or along what is seen of a face; the best first.
+std::vector<Plane> best_cuts(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const Piece& whole) {
   const Clumps clumps = clumps_of(seen, interior, whole.points);
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const int i : whole.points) {
@@ -90,18 +90,23 @@ std::optional<Plane> best_cut(const Observation& seen, const Interior& interior,
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  std::optional<Plane> best;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, Plane>> cuts;
   const auto attempt = [&](const Plane& plane) {
-    if (const double left = left_by_cut(interior, clumps, whole, plane); left < least) least = left, best = plane;
+    if (const double left = left_by_cut(interior, clumps, whole, plane); std::isfinite(left)) cuts.emplace_back(left, plane);
   };
+  const auto sort = [&] { std::stable_sort(cuts.begin(), cuts.end(), [](const auto& a, const auto& b) { return a.first < b.first; }); };
   for (const Plane& plane : planes) attempt(plane);
   for (int axis = 0; axis < 3; ++axis)
     for (int k = 1; k < kFirstCuts; ++k) attempt({interior.axes.col(axis), low[axis] + (high[axis] - low[axis]) * k / kFirstCuts});
-  if (!best) return best;
-  const Plane middle = *best;
+  if (cuts.empty()) return {};
+  sort();
+  const Plane middle = cuts.front().second;
   const double step = (interior.axes.transpose() * middle.normal).cwiseAbs().dot(high - low) / kFirstCuts / kFinerCuts;
-  for (int k = -kFinerCuts + 1; k < kFinerCuts; ++k) attempt({middle.normal, middle.offset + step * k});
+  for (int k = -kFinerCuts + 1; k < kFinerCuts; ++k)
+    if (k != 0) attempt({middle.normal, middle.offset + step * k});
+  sort();
+  std::vector<Plane> best;
+  for (std::size_t k = 0; k < std::min(cuts.size(), kTried); ++k) best.push_back(cuts[k].second);
   return best;
 }
 
@@ -167,11 +172,15 @@ std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, 
     Piece piece = std::move(open.back());
     open.pop_back();
     const bool hollow_enough = piece.hollow.free > hollow * piece.hollow.within;
-    const auto plane = hollow_enough ? best_cut(seen, interior, planes, piece) : std::nullopt;
-    std::vector<Piece> cut;
-    if (plane) cut = cut_at(seen, interior, piece.points, *plane, side);
-    if (cut.size() < 2 || free_of(cut) > (1.0 - kLeastSaving) * piece.hollow.free) done.push_back(std::move(piece));
-    else open.insert(open.end(), std::make_move_iterator(cut.begin()), std::make_move_iterator(cut.end()));
+    std::vector<Piece> parts;
+    for (const Plane& plane : hollow_enough ? best_cuts(seen, interior, planes, piece) : std::vector<Plane>()) {
+      std::vector<Piece> cut = cut_at(seen, interior, piece.points, plane, side);
+      if (cut.size() < 2 || free_of(cut) > (1.0 - kLeastSaving) * piece.hollow.free) continue;
+      parts = std::move(cut);
+      break;
+    }
+    if (parts.empty()) done.push_back(std::move(piece));
+    else open.insert(open.end(), std::make_move_iterator(parts.begin()), std::make_move_iterator(parts.end()));
   }
   join_pieces(seen, interior, done);
   return done;

@@ -161,9 +161,10 @@ bool is_well_named(const RgbdFrame& frame, int pixel) {
 void remark_on_up(const FoundUp& told, const Vec3& up, Context& context) {
   const bool turned = is_turned(up);
   if (!turned && !told.ambiguous) return;
+  const auto shown = [](double x) { return std::round(100.0 * x) / 100.0 + 0.0; };  // never −0.00
   context.warn(fmt::format("{}: up is taken as [{:.2f}, {:.2f}, {:.2f}] from the ground; if that is wrong, give it as \"up\" in frame.json",
-                           turned ? "the camera seems turned about its axis" : "more than one surface may be the ground", up.x(), up.y(),
-                           up.z()));
+                           turned ? "the camera seems turned about its axis" : "more than one surface may be the ground", shown(up.x()), shown(up.y()),
+                           shown(up.z())));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace {
 constexpr double kSmallestSigma = 0.0005;   // m; files hold whole millimetres, and no sensor is better close up
 constexpr int kReach = 3;                   // pixels; some sensors leave out every few lines
 constexpr int kMinWindow = 4, kMaxWindow = 12;  // pixels each way, of the surroundings that give a normal
+constexpr double kOnSurface = 3.0;          // standard deviations of the inverse depth
 constexpr std::size_t kMostCloudPoints = 200000;
 constexpr int kCloudNeighbours = 12;
 
@@ -37,6 +38,23 @@ void set_normal(PointGraph& graph, const Vec3& point, int i, const Vec3& sum, co
   graph.flatness[i] = static_cast<float>(std::sqrt(std::max(normal.dot(covariance * normal), 0.0)) / graph.sigma[i]);
 }
 
+/// The point that a pixel measured, or −1, also outside the picture.
+int point_at(const Camera& camera, const Measured& m, int x, int y) {
+  return x < 0 || y < 0 || x >= camera.width || y >= camera.height ? -1 : m.point_of_pixel[static_cast<std::size_t>(y) * camera.width + x];
+}
+
+/// A plane's inverse depth is linear in the picture, and what sensors measure of it is as noisy near as far: how it changes from one
+/// pixel to another tells whether both lie on one surface, however slanted that is.
+double inverse_depth(const Measured& m, int i) { return 1.0 / m.points[i].z(); }
+double inverse_sigma(const Measured& m, const PointGraph& graph, int i) { return graph.sigma[i] / (m.points[i].z() * m.points[i].z()); }
+
+/// Change of inverse depth along a row or column at i, where the neighbours before and after it (−1 = not measured) agree on it; else not a number.
+double slope_of(const Measured& m, int before, int i, int after, double error) {
+  if (before < 0 || after < 0) return std::numeric_limits<double>::quiet_NaN();
+  const double w = inverse_depth(m, i), a = w - inverse_depth(m, before), b = inverse_depth(m, after) - w;
+  return std::abs(a - b) <= 2.0 * error ? 0.5 * (a + b) : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Surroundings in the picture: 5 × 5 samples, as wide as the noise asks for (about 3° of error of the normal).
 /// One pixel of each 2 × 2 is worked out; the others of it take its normal if they lie on its surface.
 void normals_of_image(const Camera& camera, const Measured& m, PointGraph& graph, const Context& context) {
@@ -47,6 +65,7 @@ void normals_of_image(const Camera& camera, const Measured& m, PointGraph& graph
     const bool near = j >= 0 && std::abs(m.points[j].z() - m.points[i].z()) < 2.0 * (graph.sigma[i] + graph.spacing[i]);
     return near ? j : static_cast<int>(i);
   };
+  const auto at = [&](int x, int y) { return point_at(camera, m, x, y); };
   const auto leaders = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (leader(i) != static_cast<int>(i)) continue;
@@ -54,18 +73,21 @@ void normals_of_image(const Camera& camera, const Measured& m, PointGraph& graph
       const double sigma = graph.sigma[i], spacing = p.z() / focal;
       const int half = std::clamp(static_cast<int>(7.0 * sigma / spacing), kMinWindow, kMaxWindow), step = half / 2;
       const int u = m.pixel_of_point[i] % camera.width, v = m.pixel_of_point[i] / camera.width;
+      const double inverse = inverse_depth(m, static_cast<int>(i)), error = kOnSurface * inverse_sigma(m, graph, static_cast<int>(i));
+      const double slope_u = slope_of(m, at(u - step, v), static_cast<int>(i), at(u + step, v), error);
+      const double slope_v = slope_of(m, at(u, v - step), static_cast<int>(i), at(u, v + step), error);
       Vec3 sum = Vec3::Zero();
       Mat3 scatter = Mat3::Zero();
       double count = 0;
       for (int dv = -2; dv <= 2; ++dv)
         for (int du = -2; du <= 2; ++du) {
-          const int x = u + du * step, y = v + dv * step;
-          if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;
-          const int j = m.point_of_pixel[static_cast<std::size_t>(y) * camera.width + x];
+          const int j = at(u + du * step, v + dv * step);
           if (j < 0) continue;
           const Vec3 d = m.points[j] - p;
-          const double across = spacing * step * std::max(std::abs(du), std::abs(dv));
-          if (std::abs(d.z()) > 3.0 * sigma + 2.5 * across) continue;
+          const int far = std::max(std::abs(du), std::abs(dv));
+          const bool level = std::abs(d.z()) <= 3.0 * sigma + 2.5 * spacing * step * far;
+          const bool slanted = std::abs(inverse_depth(m, j) - inverse - slope_u * du - slope_v * dv) <= error * (1 + far);
+          if (!level && !slanted) continue;
           sum += d;
           scatter += d * d.transpose();
           count += 1;
@@ -86,6 +108,13 @@ std::vector<std::pair<int, int>> image_links(const Camera& camera, const Measure
                                              std::optional<double> gap) {
   std::vector<std::pair<int, int>> pairs;
   pairs.reserve(2 * m.points.size());
+  // From the pixel before both to the one after both, inverse depth changes by the same amount each time.
+  const auto slanted = [&](int i, int x, int y, int j, int dx, int dy) {
+    const int before = point_at(camera, m, x - dx, y - dy), after = point_at(camera, m, x + 2 * dx, y + 2 * dy);
+    if (before < 0 || after < 0) return false;
+    const double change = inverse_depth(m, j) - inverse_depth(m, i), error = 2.0 * kOnSurface * inverse_sigma(m, graph, i);
+    return std::abs(change - (inverse_depth(m, i) - inverse_depth(m, before))) <= error && std::abs(inverse_depth(m, after) - inverse_depth(m, j) - change) <= error;
+  };
   const auto link = [&](int i, int x, int y, int dx, int dy) {
     for (int step = 1; step <= kReach; ++step) {
       const int u = x + dx * step, v = y + dy * step;
@@ -94,7 +123,7 @@ std::vector<std::pair<int, int>> image_links(const Camera& camera, const Measure
       if (j < 0) continue;
       const double allowed =
           gap.value_or(4.0 * std::max(graph.sigma[i], graph.sigma[j]) + (3.0 + step) * graph.spacing[i]);
-      if ((m.points[i] - m.points[j]).norm() <= allowed) pairs.emplace_back(i, j);
+      if ((m.points[i] - m.points[j]).norm() <= allowed || (!gap && step == 1 && slanted(i, x, y, j, dx, dy))) pairs.emplace_back(i, j);
       return;
     }
   };

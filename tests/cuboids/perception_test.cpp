@@ -108,6 +108,24 @@ TEST(Boxes, SeenFromFarAboveKeepTheirSides) {  // noise makes small faces out of
   }
 }
 
+/// From one pixel to the next such a top runs away by ten times what pixels lie apart, and far more than a precise sensor's noise.
+TEST(Boxes, SeenAlmostFromTheSideKeepTheirTops) {
+  for (const double above : {0.06, 0.09, 0.12}) {
+    Scene scene;
+    scene.height = 0.15 + above;
+    scene.pitch = radians(12.0);
+    scene.noise = 0.0005;
+    scene.boxes = {upright(-0.15, 0.85, 0, {0.2, 0.15, 0.15}, 10), upright(0.15, 0.9, 0, {0.15, 0.2, 0.15}, -15)};
+    const Perceived p = perceive(render(scene));
+    ASSERT_EQ(p.fitted.size(), 2u) << above;
+    for (const Cuboid& c : p.fitted) {
+      const OrientedBox& truth = scene.boxes[c.box.center.x() < 0 ? 0 : 1];
+      EXPECT_LT(size_error(c.box, truth), 0.015) << above;
+      EXPECT_LT(turn_between(c.box, truth), 2.0) << above;
+    }
+  }
+}
+
 TEST(Boxes, FarAwayAreNotTiltedByNoise) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Scene scene;
@@ -197,6 +215,20 @@ TEST(Boxes, AnLShapedThingBecomesTwoSlabsOutOfFreeSpace) {
     EXPECT_EQ(cuboid.density, 700);
   }
   for (const Cuboid& cuboid : p.fitted) EXPECT_LT(cuboid.box.volume(), 0.1 * 0.1 * 0.2 * 1.2);
+}
+
+TEST(Boxes, ADensityOfNothingInThePictureIsRemarkedOn) {
+  Scene scene;
+  scene.boxes = {upright(0, 0.8, 0, {0.1, 0.1, 0.1}, 0)};
+  RgbdFrame frame = render(scene);
+  frame.densities["chair"] = 700;
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  const DepthView view(frame, seen.T_world_camera, depth_noise(frame, {}));
+  fit_cuboids(frame, seen, find_objects(frame, seen, {}, context), view, {}, context);
+  const std::vector<std::string> warnings = context.take_warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("\"chair\""), std::string::npos);
 }
 
 TEST(Objects, StrokesPartWhatTouches) {
