@@ -2,8 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "planes/doubt.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "planes/weighted.h"
 
@@ -12,7 +14,7 @@ namespace {
 
 constexpr std::size_t kEnough = 10;      // tilts
 constexpr std::size_t kFewestMembers = 3;  // of a frame that tells
-constexpr double kTurns = 3;             // of a frame, which its members' tilts pay for
+constexpr double kTelling = 0.1;         // of a tilt's variance: what is left where the frame follows it
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kMuchLess = 0.6, kLeast = 0.1;  // of the doubt at first: when to look again, and what is left at least
@@ -38,29 +40,44 @@ void reduce_doubt(Patches& patches, double from, double to) {
   }
 }
 
+/// Adds the squared tilts of a frame's members against the frame that fits them by their areas (what is in it by chance is small, and must not
+/// turn it), over the variance that they would have at the systematic doubt: a tilt that turns the frame along with itself shows the less of it.
+void add_squares(const OrientationFrame& start, const std::vector<Vec3>& locals, const std::vector<std::pair<const Patch*, int>>& members,
+                 std::vector<std::pair<double, double>>& squares) {
+  const OrientationFrame frame = refit_frame(start, locals, members, true);
+  struct Tilt {
+    Vec3 jacobian;
+    double square, variance, weight, area;
+    bool tells;
+  };
+  std::vector<Tilt> tilts;
+  Mat3 information = Mat3::Zero(), spread = Mat3::Zero();
+  for (const auto& [patch, local] : members) {
+    const Vec3 n = frame.direction(locals[local]);
+    const double across = std::abs(n.dot(patch->fit.normal));
+    for (const auto& [axis, doubt, systematic] : {std::tuple(patch->fit.u, patch->doubt_u, patch->systematic_u), {patch->fit.v, patch->doubt_v, patch->systematic_v}}) {
+      if (!(systematic > 0) || !std::isfinite(doubt)) continue;
+      const Tilt& t = tilts.emplace_back(n.cross(axis), std::pow(n.dot(axis) / across, 2), systematic, patch->area / doubt, patch->area, doubt - systematic < kPrecise * systematic);
+      information += t.weight * t.jacobian * t.jacobian.transpose();
+      spread += t.weight * t.weight * t.variance * t.jacobian * t.jacobian.transpose();
+    }
+  }
+  const Mat3 covariance = information.completeOrthogonalDecomposition().pseudoInverse(), turn = covariance * spread * covariance;
+  for (const Tilt& t : tilts) {
+    const double left = t.variance * (1.0 - 2.0 * t.weight * t.jacobian.dot(covariance * t.jacobian)) + t.jacobian.dot(turn * t.jacobian);
+    if (t.tells && left > kTelling * t.variance) squares.emplace_back(t.square / left, t.area);
+  }
+}
+
 }  // namespace
 
 double shown_doubt(const Patches& patches, const Selection& s, const std::vector<Vec3>& locals) {
   std::vector<std::vector<std::pair<const Patch*, int>>> members(s.frames.size());
   for (std::size_t j = 0; j < patches.patches.size(); ++j)
     members[static_cast<std::size_t>(s.frame_of_patch[j])].emplace_back(&patches.patches[j], s.local_of_patch[j]);
-  std::vector<std::pair<double, double>> squares;  // of tilts, over the systematic doubt; the patch's area
-  for (std::size_t f = 0; f < s.frames.size(); ++f) {
-    if (members[f].size() < kFewestMembers) continue;
-    constexpr bool kByArea = true;  // what is in the frame by chance is small, and must not turn it
-    const OrientationFrame frame = refit_frame(s.frames[f], locals, members[f], kByArea);
-    const double tilts = 2.0 * static_cast<double>(members[f].size()), fitted = tilts / (tilts - kTurns);
-    for (const auto& [patch, local] : members[f]) {
-      const Vec3 n = frame.direction(locals[local]);
-      const double across = std::abs(n.dot(patch->fit.normal));
-      const auto add = [&, area = patch->area](const Vec3& axis, double doubt, double systematic) {
-        if (systematic > 0 && doubt - systematic < kPrecise * systematic)
-          squares.emplace_back(fitted * std::pow(n.dot(axis) / across, 2) / systematic, area);
-      };
-      add(patch->fit.u, patch->doubt_u, patch->systematic_u);
-      add(patch->fit.v, patch->doubt_v, patch->systematic_v);
-    }
-  }
+  std::vector<std::pair<double, double>> squares;  // of tilts, over what they would be at the systematic doubt; the patch's area
+  for (std::size_t f = 0; f < s.frames.size(); ++f)
+    if (members[f].size() >= kFewestMembers) add_squares(s.frames[f], locals, members[f], squares);
   if (squares.size() < kEnough) return 1.0;
   const double safety = 2 + 4 / std::sqrt(static_cast<double>(squares.size()));
   return std::clamp(safety * std::sqrt(weighted_quantile(std::move(squares), kQuantile) / kUsual), kLeast, 1.0);

@@ -174,8 +174,8 @@ TEST(Askew, FurnitureTurnedByADegreeKeepsItInAnExactRoom) {
   EXPECT_LT(errors[errors.size() / 2], 0.1);
 }
 
-/// Walls of one frame that are off it by `sd` degrees each, and small sides of a thing that is turned by 2 degrees.
-double shown_by_walls(double sd, std::size_t count, std::size_t turned = 0) {
+/// Walls of one frame that are off it by `sd` degrees each, the first of an area of its own, and small sides of a thing that is turned by 2 degrees.
+double shown_by_walls(double sd, std::size_t count, std::size_t turned = 0, double largest = 1) {
   Random random(3);
   Patches patches;
   Selection s;
@@ -188,7 +188,7 @@ double shown_by_walls(double sd, std::size_t count, std::size_t turned = 0) {
     if (i >= count) p.fit.normal = Eigen::AngleAxisd(radians(2), Vec3(Vec3::UnitZ())) * p.fit.normal;
     p.fit.u = any_orthogonal(p.fit.normal);
     p.fit.v = p.fit.normal.cross(p.fit.u);
-    p.area = i < count ? 1 : 0.02;
+    p.area = i == 0 ? largest : i < count ? 1 : 0.02;
     p.systematic_u = p.systematic_v = std::pow(radians(0.5), 2);
     p.doubt_u = p.doubt_v = 1.01 * p.systematic_u;
     patches.patches.push_back(p);
@@ -203,6 +203,7 @@ TEST(Doubt, FollowsTheScatterOfWalls) {
   EXPECT_NEAR(shown_by_walls(0.1, 60), 2.4 * 0.2, 0.12);
   EXPECT_EQ(shown_by_walls(0.5, 60), 1.0);
   EXPECT_EQ(shown_by_walls(0.0, 4), 1.0);  // too few to tell
+  EXPECT_EQ(shown_by_walls(0.5, 60, 0, 1000), 1.0);  // a roof that turns the frame with itself says nothing
   EXPECT_LT(shown_by_walls(0.0, 6, 5), 0.3);  // walls tell, not what is in their frame by chance
 }
 
