@@ -84,8 +84,8 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   Summary& summary = result.summary;
   const std::array<Solid, 2> solids = {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)};
   check_drag(shot, options, solids);
-  const Evidence evidence = observe(shot, context, summary);
-  const Tracks& tracks = evidence.tracks;
+  Evidence evidence = observe(shot, context, summary);
+  Tracks& tracks = evidence.tracks;
   warn_of_footage(evidence.camera, evidence.footage, context);
   summary.counts = {{"points", tracks.points.size()}, {"flights", tracks.spans.size()}, {"meetings", tracks.meetings.size()}};
   result.camera = evidence.camera.camera;
@@ -98,7 +98,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   std::vector<SolvedImpact> impacts;
   {
     const Stage stage(context, summary, "positions");
-    impacts = solve_positions(shot, options, evidence.camera, solids, tracks, context);
+    impacts = solve_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
     share_gravity(impacts);
     share_floor(impacts);
   }

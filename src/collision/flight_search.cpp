@@ -12,7 +12,8 @@
 namespace unseen::collision {
 namespace {
 
-constexpr std::size_t kFewest = 4;   // sightings of a flight
+constexpr std::size_t kFewest = 4;       // sightings of a flight
+constexpr std::size_t kFewestOfPair = 3;  // the same where both bodies change at one time
 constexpr double kExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
 
 /// A body's sightings in order of time; empty if a frame has two.
@@ -81,7 +82,8 @@ class Flights {
       const std::size_t last = std::min(end, seen.size());
       std::size_t split = last;
       if (u) split = static_cast<std::size_t>(std::lower_bound(seen.begin(), seen.end(), *u, [](const Candidate& c, double t) { return c.u < t; }) - seen.begin());
-      if (split < begin + kFewest || (u && last < split + kFewest)) return std::nullopt;
+      const std::size_t fewest = bodies.size() == 2 ? kFewestOfPair : kFewest;
+      if (split < begin + fewest || (u && last < split + fewest)) return std::nullopt;
       for (const auto& [from, to] : {std::pair{begin, split}, std::pair{split, last}}) {
         if (from == to) continue;
         const std::size_t first = tracks.points.size();
@@ -166,7 +168,7 @@ std::optional<Tracks> search_pair(const Shot& shot, const ShotCamera& camera, co
   for (const auto& frame : candidates)
     if (std::any_of(frame.begin(), frame.end(), [](const Candidate& c) { return c.body < 0; })) return std::nullopt;
   const std::vector<std::vector<Candidate>> bodies = {sightings_of(candidates, 0), sightings_of(candidates, 1)};
-  if (bodies[0].size() < 2 * kFewest || bodies[1].size() < 2 * kFewest) return std::nullopt;
+  if (bodies[0].size() < kFewestOfPair + kFewest || bodies[1].size() < kFewestOfPair + kFewest) return std::nullopt;
   const std::size_t count = std::max(bodies[0].size(), bodies[1].size());
   const Flights level(shot, camera, noise_of(bodies, least_noise));
   Flights still = level;  // a wrong down bends flights, which an impact would explain

@@ -9,6 +9,7 @@
 #include "collision/drag.h"
 #include "collision/restitution.h"
 #include "collision/shot_problem.h"
+#include "collision/split.h"
 #include "collision/unknowns.h"
 #include "collision/vertical.h"
 
@@ -45,12 +46,14 @@ double distinct_share(const std::vector<SolvedImpact>& impacts) {
 }  // namespace
 
 std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
-                                          const Tracks& tracks, Context& context) {
+                                          Tracks& tracks, double fps, Context& context) {
   std::vector<SolvedImpact> impacts;
-  for (const Tracks::Meeting& meeting : tracks.meetings) {
+  for (const Tracks::Meeting& meeting : std::vector(tracks.meetings)) {
     SolvedImpact impact;
     impact.meeting = meeting;
-    impact.solution = best_fit(problem_of(shot, options, camera, solids, tracks, meeting), meeting.time, 1, context);
+    const auto solve = [&](const Tracks& seen) { return best_fit(problem_of(shot, options, camera, solids, seen, meeting), meeting.time, 1, context); };
+    impact.solution = solve(tracks);
+    settle_split(solve, impact.meeting, 1.0 / fps, tracks, impact.solution);
     if (!impact.solution.fit.usable) continue;
     if (!impact.solution.problem.fixed_normal) {
       add_floor(impact.solution.problem, impact.solution.fit.state);
