@@ -8,43 +8,21 @@
 #include <cmath>
 
 #include "collision/drag.h"
-#include "collision/unknowns.h"
+#include "collision/scale_doubt.h"
 
 namespace unseen::collision {
 namespace {
-
-constexpr double kScale = 0.05;       // share by which size and gravity may differ
-constexpr double kOtherScale = 0.15;  // the same for bodies whose projected size depends on how they are turned
-
-/// Distance by size over distance by gravity, of one body in one impact; nothing if gravity hardly tells.
-std::optional<double> scale_ratio(const SolvedImpact& impact, int body) {
-  Problem problem = impact.solution.problem;
-  problem.terms.size = false;
-  if (problem.gravity == 0.0) return std::nullopt;
-  Fit fit = settle(problem, impact.solution.fit.state);
-  if (!fit.usable) return std::nullopt;
-  add_covariance(problem, fit);
-  const double depth = fit.state.p[body].z(), deviation = std::sqrt(std::max(0.0, fit.covariance(kP + 3 * body + 2, kP + 3 * body + 2)));
-  if (!(deviation < 0.5 * kScale * depth)) return std::nullopt;
-  std::vector<double> ratios;
-  const StateT<double> s = values_of(problem, fit.state);
-  for (const PointObservation& seen : problem.points)
-    if (seen.body == body && seen.depth > 0.0) ratios.push_back(seen.depth / position_at<double>(problem, s, body, seen.after, seen.time).z());
-  if (ratios.size() < 5) return std::nullopt;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
-  return ratios[ratios.size() / 2];
-}
 
 void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, Context& context) {
   for (int o = 0; o < 2; ++o) {
     if (shot.bodies[o].shape == Shape::fixed) continue;
     std::vector<double> ratios;
     for (const SolvedImpact& impact : impacts)
-      if (const auto ratio = scale_ratio(impact, o)) ratios.push_back(*ratio);
+      if (const auto ratio = scale_ratio(impact.solution, o)) ratios.push_back(*ratio);
     if (ratios.empty()) continue;
     std::sort(ratios.begin(), ratios.end());
-    const double ratio = ratios[ratios.size() / 2], limit = shot.bodies[o].shape == Shape::sphere ? kScale : kOtherScale;
-    if (std::abs(ratio - 1.0) > limit)
+    const double ratio = ratios[ratios.size() / 2];
+    if (is_another_scale(impacts.front().solution.problem.solids[static_cast<std::size_t>(o)], ratio))
       context.warn(fmt::format("{}: the distance by its size is {:.2f} times that by gravity: its size is given {:.0f} % too {}, or the frame rate {:.0f} % too {}",
                                shot.bodies[o].name, ratio, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "large" : "small",
                                100.0 * std::abs(std::sqrt(ratio) - 1.0), ratio > 1.0 ? "high" : "low"));

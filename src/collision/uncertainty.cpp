@@ -6,6 +6,7 @@
 
 #include "collision/focal_doubt.h"
 #include "collision/normal_doubts.h"
+#include "collision/scale_doubt.h"
 #include "collision/unknowns.h"
 #include "unseen/core/random.h"
 
@@ -140,9 +141,10 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   }
   if (problem.level && c_spread > c_noise) c_spread = std::hypot(c_spread, c_noise);  // another floor's value is as noisy
   const FocalError focal = error_by_focal_length(solution);
-  widen(result.restitution, std::hypot(c_spread, focal.restitution), 0.0, 1.0);
+  const ScaleError scale_off = error_by_scale(solution);
+  widen(result.restitution, std::hypot(c_spread, focal.restitution, scale_off.restitution), 0.0, 1.0);
   if (by_covariance > 0.0) result.common *= result.restitution.sd / by_covariance;
-  widen(result.mass_ratio, std::hypot(m_spread, focal.mass_ratio), 0.0, std::numeric_limits<double>::infinity());
+  widen(result.mass_ratio, std::hypot(m_spread, focal.mass_ratio, scale_off.mass_ratio), 0.0, std::numeric_limits<double>::infinity());
   return result;
 }
 

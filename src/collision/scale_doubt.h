@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <optional>
+
+#include "collision/best_fit.h"
+
+namespace unseen::collision {
+
+/// Distance by size over distance by gravity, of one body in one impact; nothing if gravity hardly tells.
+std::optional<double> scale_ratio(const Solution& solution, int body);
+
+/// Whether such a ratio is more than noise and projection explain.
+bool is_another_scale(const Solid& solid, double ratio);
+
+/// Standard deviations.
+struct ScaleError {
+  double restitution = 0, mass_ratio = 0;
+};
+
+/// What spheres given too large or too small, or a wrong frame rate, did to the result, where size and gravity tell of different scales: how far
+/// it moves with the sizes that gravity tells.
+ScaleError error_by_scale(const Solution& solution);
+
+}  // namespace unseen::collision
