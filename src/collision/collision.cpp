@@ -35,6 +35,16 @@ void warn_of_far_orientations(const Shot& shot, const Tracks& tracks, Context& c
   }
 }
 
+/// What is given and tells nothing.
+void warn_of_unused(const Shot& shot, Context& context) {
+  const bool both_free = std::none_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& b) { return b.shape == Shape::fixed; });
+  if (shot.floor && both_free) context.warn(shot.name + ": floor: not used, as both bodies move");
+  for (std::size_t o = 0; o < shot.bodies.size(); ++o)
+    if (shot.bodies[o].shape == Shape::sphere &&
+        std::any_of(shot.orientations.begin(), shot.orientations.end(), [&](const OrientationHint& hint) { return hint.body == static_cast<int>(o); }))
+      context.warn(fmt::format("{}: orientations: those of {} are not used, as a sphere looks alike however it is turned", shot.name, shot.bodies[o].name));
+}
+
 /// Why no impact was found.
 std::string nothing_found(const Shot& shot, const Tracks& tracks) {
   if (tracks.spans.empty()) return "nothing that flies freely was found";
@@ -94,6 +104,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   if (shot.bodies[1].shape == Shape::fixed) result.fixed = shot.bodies[1].name;
   for (const Body& body : shot.bodies) result.bodies.push_back({body.name, body.shape == Shape::fixed, Vec3::Zero(), {}, {}});
 
+  warn_of_unused(shot, context);
   warn_of_far_orientations(shot, tracks, context);
   std::vector<SolvedImpact> impacts;
   {

@@ -64,6 +64,15 @@ TEST(AssumedFocalLength, HardlyMattersWhereBodiesFlyAcross) {
   EXPECT_LT(assumed.restitution->sd, 1.5 * known.restitution->sd);
 }
 
+TEST(Unused, FloorsAndOrientationsThatTellNothingAreRemarkedOn) {
+  Shot shot = tracks("balls", 1).shot;
+  EXPECT_FALSE(says(solve(shot), "not used"));
+  shot.floor = Plane{-Vec3::UnitY(), -2.0};
+  EXPECT_TRUE(says(solve(shot), "floor: not used"));
+  shot.orientations.push_back({0, 0.1, Quat::Identity()});
+  EXPECT_TRUE(says(solve(shot), "orientations: those of " + shot.bodies[0].name));
+}
+
 TEST(HitsOffTheCentre, OfBodiesKnownByTheirSizeAreCounted) {
   int held = 0;
   for (int seed = 1; seed <= 4; ++seed) {
