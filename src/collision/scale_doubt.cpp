@@ -47,6 +47,7 @@ ScaleError error_by_scale(const Solution& solution) {
     solid.radius /= *ratio;
     solid.mass.extent /= *ratio;
     solid.mass.reach /= *ratio;
+    solid.mass.inertia /= *ratio * *ratio;
     for (PointObservation& seen : problem.points)
       if (seen.body == body) seen.depth /= *ratio;
   }

@@ -44,7 +44,7 @@ void reduce_doubt(Patches& patches, double from, double to) {
 /// turn it), over the variance that they would have at the systematic doubt: a tilt that turns the frame along with itself shows the less of it.
 void add_squares(const OrientationFrame& start, const std::vector<Vec3>& locals, const std::vector<std::pair<const Patch*, int>>& members,
                  std::vector<std::pair<double, double>>& squares) {
-  const OrientationFrame frame = refit_frame(start, locals, members, true);
+  const OrientationFrame frame = refit_frame(start, locals, members, /*by_area=*/true);
   struct Tilt {
     Vec3 jacobian;
     double square, variance, weight, area;
