@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kStops = 0.4;       // of a hollow ball's speed: the most that friction takes from one that does not spin
 constexpr double kUsualFriction = 0.3;  // coefficient
+constexpr double kSpinUnlikely = 2.4;   // χ²: most of what is thrown spins little
 constexpr double kLever = 0.25;         // of a body's extent: how far off its centre a usual hit is
 constexpr double kLeast = 0.08;      // rad: a smaller tilt moves the restitution by a hundredth or less
 constexpr double kOtherValue = 0.01;   // of the restitution
@@ -79,10 +80,14 @@ void doubt_normal(Solution& solution) {
   const Vec3 sliding = before - along * before.dot(along);
   const double speed = sliding.norm(), change = (after - before).norm();
   if (change < 1e-9 || speed < 1e-9) return;
-  const double friction = std::min(kUsualFriction, kStops * speed / change);
-  const Vec3 normal = (along + friction * sliding / speed).normalized();
-  const double c = std::clamp(-after.dot(normal) / std::min(-1e-6, before.dot(normal)), 0.0, 1.0);
-  solution.others.push_back({fmt::format("a contact with a friction of {:.2f}: c = {:.2f}", friction, c), c, state.mass_ratio, 0.0});
+  const auto add = [&](double friction, const char* of, double excess) {
+    const Vec3 normal = (along + friction * sliding / speed).normalized();
+    const double c = std::clamp(-after.dot(normal) / std::min(-1e-6, before.dot(normal)), 0.0, 1.0);
+    solution.others.push_back({fmt::format("{} with a friction of {:.2f}: c = {:.2f}", of, friction, c), c, state.mass_ratio, excess});
+  };
+  const double without_spin = std::min(kUsualFriction, kStops * speed / change);
+  add(without_spin, "a contact", 0.0);
+  if (without_spin < kUsualFriction) add(kUsualFriction, "a contact of what spins,", kSpinUnlikely);
 }
 
 void doubt_lever(Solution& solution) {
