@@ -18,7 +18,7 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
     if (shot.bodies[o].shape == Shape::fixed) continue;
     std::vector<double> ratios;
     for (const SolvedImpact& impact : impacts)
-      if (const auto ratio = scale_ratio(impact.solution, o)) ratios.push_back(*ratio);
+      if (const auto& ratio = impact.uncertain.scale[static_cast<std::size_t>(o)]) ratios.push_back(*ratio);
     if (ratios.empty()) continue;
     std::sort(ratios.begin(), ratios.end());
     const double ratio = ratios[ratios.size() / 2];

@@ -13,8 +13,6 @@ namespace {
 constexpr double kScale = 0.05;       // share by which size and gravity may differ
 constexpr double kOtherScale = 0.15;  // the same for bodies whose projected size depends on how they are turned
 
-}  // namespace
-
 std::optional<double> scale_ratio(const Solution& solution, int body) {
   Problem problem = solution.problem;
   problem.terms.size = false;
@@ -33,16 +31,22 @@ std::optional<double> scale_ratio(const Solution& solution, int body) {
   return ratios[ratios.size() / 2];
 }
 
+}  // namespace
+
+ScaleRatios scale_ratios(const Solution& solution) {
+  return {scale_ratio(solution, 0), solution.problem.fixed ? std::nullopt : scale_ratio(solution, 1)};
+}
+
 bool is_another_scale(const Solid& solid, double ratio) { return std::abs(ratio - 1.0) > (solid.is_sphere() ? kScale : kOtherScale); }
 
-ScaleError error_by_scale(const Solution& solution) {
+ScaleError error_by_scale(const Solution& solution, const ScaleRatios& ratios) {
   Problem problem = solution.problem;
   if (problem.fixed) return {};  // what bounces alone has no size to touch with
   bool another = false;
   for (int body = 0; body < 2; ++body) {
     Solid& solid = problem.solids[static_cast<std::size_t>(body)];
-    const std::optional<double> ratio = solid.is_sphere() ? scale_ratio(solution, body) : std::nullopt;
-    if (!ratio || !is_another_scale(solid, *ratio)) continue;
+    const std::optional<double>& ratio = ratios[static_cast<std::size_t>(body)];
+    if (!solid.is_sphere() || !ratio || !is_another_scale(solid, *ratio)) continue;
     another = true;
     solid.radius /= *ratio;
     solid.mass.extent /= *ratio;

@@ -6,7 +6,6 @@
 
 #include "collision/focal_doubt.h"
 #include "collision/normal_doubts.h"
-#include "collision/scale_doubt.h"
 #include "collision/unknowns.h"
 #include "unseen/core/random.h"
 
@@ -113,7 +112,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   doubt_level(solution);
   doubt_normal(solution);
   doubt_lever(solution);
-  Uncertain result{restitution_of(problem, solution.fit), mass_ratio_of(problem, solution.fit), error_by_vertical(problem, solution.fit)};
+  Uncertain result{restitution_of(problem, solution.fit), mass_ratio_of(problem, solution.fit), error_by_vertical(problem, solution.fit), {}};
   const double by_covariance = result.restitution.sd;
   result.restitution.value = std::clamp(result.restitution.value, 0.0, 1.0);
   const Residuals residuals = residuals_of(problem, solution.fit.state);
@@ -141,7 +140,8 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   }
   if (problem.level && c_spread > c_noise) c_spread = std::hypot(c_spread, c_noise);  // another floor's value is as noisy
   const FocalError focal = error_by_focal_length(solution);
-  const ScaleError scale_off = error_by_scale(solution);
+  result.scale = scale_ratios(solution);
+  const ScaleError scale_off = error_by_scale(solution, result.scale);
   widen(result.restitution, std::hypot(c_spread, focal.restitution, scale_off.restitution), 0.0, 1.0);
   if (by_covariance > 0.0) result.common *= result.restitution.sd / by_covariance;
   widen(result.mass_ratio, std::hypot(m_spread, focal.mass_ratio, scale_off.mass_ratio), 0.0, std::numeric_limits<double>::infinity());

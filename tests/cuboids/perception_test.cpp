@@ -120,7 +120,7 @@ TEST(Boxes, SeenAlmostFromTheSideKeepTheirTops) {
     ASSERT_EQ(p.fitted.size(), 2u) << above;
     for (const Cuboid& c : p.fitted) {
       const OrientedBox& truth = scene.boxes[c.box.center.x() < 0 ? 0 : 1];
-      EXPECT_LT(size_error(c.box, truth), 0.015) << above;
+      EXPECT_LT(size_error(c.box, truth), above < 0.08 ? 0.015 : 0.01) << above;  // the first is seen at 4°
       EXPECT_LT(turn_between(c.box, truth), 2.0) << above;
     }
   }
