@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "collision/median.h"
+#include "collision/shot_problem.h"
 #include "collision/starts.h"
 #include "collision/unknowns.h"
 
@@ -72,7 +73,10 @@ std::vector<Alternative> alternatives(const std::vector<Candidate>& candidates) 
         }))
       continue;
     known.push_back({c, m});
-    others.push_back({fmt::format("other turning explains the data alike: c = {:.2f}, mass ratio {:.2f}", c, m), c, m, 2.0 * excess});
+    others.push_back({candidate.problem.fixed && candidate.problem.orientations.empty()
+                          ? fmt::format("another vertical explains the data alike: c = {:.2f}", c)
+                          : fmt::format("other turning explains the data alike: c = {:.2f}, mass ratio {:.2f}", c, m),
+                      c, m, 2.0 * excess});
   }
   return others;
 }
@@ -93,10 +97,21 @@ void advance(std::vector<Candidate>& candidates, double worse, Context& context,
   if (!candidates.empty()) std::erase_if(candidates, [limit = candidates.front().score + worse](const Candidate& c) { return c.score > limit; });
 }
 
-/// Orientations may be much better or worse than expected: starts for each.
+/// Orientations may be much better or worse than expected: starts for each. The camera may look up or down, if nothing tells, which of a bounce
+/// is as likely as another impact.
 std::vector<Candidate> first_candidates(const Problem& problem, double time, int starts) {
   constexpr double kNoises[] = {1.0, 0.15, 4.0};  // times what was expected
+  constexpr double kPitches[] = {-0.25, 0.25};    // rad
   std::vector<Candidate> candidates;
+  if (problem.fixed && problem.gravity > 0.0 && problem.down_sigma >= kDownSigma)
+    for (const double pitch : kPitches) {
+      Problem pitched = problem;
+      pitched.down = Eigen::AngleAxisd(pitch, Vec3::UnitX()) * problem.down;
+      for (State& state : start_states(pitched, time, starts)) {
+        candidates.push_back({problem, {}, 0.0});
+        candidates.back().fit.state = std::move(state);
+      }
+    }
   for (const double noise : kNoises) {
     Problem guess = problem;
     guess.orientation_sigma *= noise;

@@ -110,6 +110,17 @@ Candidates candidates_of(const std::vector<Sighting>& sightings, const ShotCamer
   return candidates;
 }
 
+std::vector<Candidate> sightings_of(const Candidates& candidates, int body) {
+  std::vector<Candidate> all;
+  for (const auto& frame : candidates)
+    for (const Candidate& c : frame) {
+      if (c.body >= 0 && c.body != body) continue;
+      if (!all.empty() && all.back().frame == c.frame) return {};
+      all.push_back(c);
+    }
+  return all;
+}
+
 double unlikeness(const Candidate& a, const Candidate& b) {
   if (a.body >= 0 && b.body >= 0 && a.body != b.body) return kCap;
   double sum = 0.0;

@@ -33,6 +33,9 @@ enum class DarkBodies { usual, all };
 Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool spheres, DarkBodies dark = DarkBodies::usual);
 Candidates candidates_of(const std::vector<Sighting>& sightings, const ShotCamera& camera);
 
+/// What is or may be a body, in order of time; nothing if a frame has two of it.
+std::vector<Candidate> sightings_of(const Candidates& candidates, int body);
+
 /// How unlike two candidates look, in σ², capped.
 double unlikeness(const Candidate& a, const Candidate& b);
 

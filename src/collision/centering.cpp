@@ -17,7 +17,7 @@ constexpr std::size_t kMostPairs = 100'000'000;  // of faces and vertices that a
 constexpr int kRaster = 320;           // px, of a drawn silhouette
 constexpr double kSize = 0.03;         // share by which all sizes of a flight may be off together
 constexpr double kOddLeast = 0.015, kOddMost = 0.1;  // of the logarithm of the area, off the flight's median
-constexpr double kOddSigmas = 5.0;     // the same in the flight's own spread
+constexpr double kOddOfFlight = 5.0;     // the same in the flight's own spread
 constexpr double kMostLeftOut = 0.5;   // of a flight's points: more, and the pose is wrong, not the points
 
 bool is_convex(const TriangleMesh& mesh) {
@@ -123,7 +123,7 @@ std::vector<PointObservation> centered(const std::vector<PointObservation>& poin
       const double typical = median(ratios);
       std::vector<double> off;
       for (const double r : ratios) off.push_back(std::abs(r - typical));
-      const double odd = std::clamp(kOddSigmas * 1.4826 * median(off), kOddLeast, kOddMost), sigma = kSize * std::sqrt(static_cast<double>(flight.size()));
+      const double odd = std::clamp(kOddOfFlight * 1.4826 * median(off), kOddLeast, kOddMost), sigma = kSize * std::sqrt(static_cast<double>(flight.size()));
       for (std::size_t i = 0; i < flight.size(); ++i) {
         if (ratios[i] != 0.0) flight[i].depth_sigma = std::min(flight[i].depth_sigma, sigma);
         if (ratios[i] == 0.0 || std::abs(ratios[i] - typical) < odd) whole.push_back(flight[i]);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "collision/arcs.h"
+#include "collision/chain_search.h"
 #include "collision/meetings.h"
 #include "collision/spans.h"
 #include "collision/time_gaps.h"
@@ -171,17 +172,9 @@ void correct_times(std::vector<Candidate>& track, double noise, const Shot& shot
   for (Candidate& c : track) c.u = gaps.corrected(c.frame, c.u);
 }
 
-}  // namespace
-
-Tracks find_chain(const Shot& shot, const Candidates& candidates, int body, double fps, double least_noise, Context& context) {
+/// Flights of a track that are parabolas of the picture, and where they meet.
+Tracks flights_in_picture(const Shot& shot, const Candidates& candidates, std::vector<Candidate> track, int body, double noise, double fps, Context& context) {
   Tracks tracks;
-  const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
-  const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
-  if (arcs.empty()) {
-    tracks.unexplained = unexplained_frames(candidates, {}, 0.0);
-    return tracks;
-  }
-  std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
   correct_times(track, noise, shot, context);
   std::optional<ImageGravity> gravity;
   if (shot.gravity > 0.0) {
@@ -212,6 +205,22 @@ Tracks find_chain(const Shot& shot, const Candidates& candidates, int body, doub
   tracks.collisions_seen = static_cast<int>(tracks.meetings.size());
   tracks.unexplained = unexplained_frames(candidates, points, track.empty() ? 0.0 : track[track.size() / 2].area);
   return tracks;
+}
+
+}  // namespace
+
+Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, int body, double fps, double least_noise, Context& context) {
+  const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
+  const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
+  if (arcs.empty()) {
+    Tracks none;
+    none.unexplained = unexplained_frames(candidates, {}, 0.0);
+    return none;
+  }
+  const std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
+  Tracks tracks = flights_in_picture(shot, candidates, track, body, noise, fps, context);
+  if (!tracks.meetings.empty() || shot.video.empty()) return tracks;
+  return search_return(shot, camera, track, body, fps, noise, context).value_or(tracks);
 }
 
 }  // namespace unseen::collision

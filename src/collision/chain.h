@@ -7,8 +7,9 @@
 
 namespace unseen::collision {
 
-/// Flights of one body, and where two of them meet at a bounce off something fixed. `body` is its index, `least_noise` (px) what a
+/// Flights of one body, and where two of them meet at a bounce off something fixed: parabolas of the picture, or, of a filmed ball where these do not
+/// meet, flights in space. `body` is its index, `least_noise` (px) what a
 /// centroid is good for at best.
-Tracks find_chain(const Shot& shot, const Candidates& candidates, int body, double fps, double least_noise, Context& context);
+Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, int body, double fps, double least_noise, Context& context);
 
 }  // namespace unseen::collision

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "collision/common_error.h"
 #include "collision/describe.h"
 #include "collision/drag.h"
 #include "collision/remarks.h"
@@ -122,6 +123,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
     const Stage stage(context, summary, "uncertainty");
     for (SolvedImpact& impact : impacts) {
       impact.uncertain = uncertainty(impact.solution, options.resamples, options.seed, context);
+      weigh_common_error(impact.solution, impact.uncertain, options.resamples, options.seed, context);
       impact.check = check_model(impact.solution, options.held_out, tracks.noise);
     }
   }

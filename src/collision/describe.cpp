@@ -92,6 +92,7 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
       remarks.push_back(fmt::format("{}: two of its sides differ by {:.0f} % only; it may be turned by 90° about the third", name, 100.0 * *alike));
   }
   if (problem.level) remarks.push_back(fmt::format("{}: taken to be level; give its \"normal\" if it is not", shot.bodies[1].name));
+  if (problem.plumb) remarks.push_back(fmt::format("{}: taken to be about plumb; give \"down\" if it is not", shot.bodies[1].name));
   if (!fit.state.law) remarks.push_back("the contact's normal is taken to be the impulse's direction: friction is not told from restitution");
   return remarks;
 }

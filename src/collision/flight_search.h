@@ -14,8 +14,4 @@ namespace unseen::collision {
 /// or if no such flights explain them.
 std::optional<Tracks> search_pair(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, double fps, double least_noise, Context& context);
 
-/// The same for one body that bounces off something fixed: the fewest flights that explain its sightings.
-std::optional<Tracks> search_chain(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, int body, double fps, double least_noise,
-                                   Context& context);
-
 }  // namespace unseen::collision

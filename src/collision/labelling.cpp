@@ -4,6 +4,8 @@
 
 #include "collision/candidates.h"
 #include "collision/chain.h"
+#include "collision/chain_search.h"
+#include "collision/flight_cost.h"
 #include "collision/flight_search.h"
 #include "collision/tracks.h"
 #include "collision/two_body.h"
@@ -25,7 +27,7 @@ Tracks label(const Shot& shot, const ShotCamera& camera, Candidates candidates, 
   const int body = only_free_body(shot);
   if (body < 0) return find_pair(shot, camera, candidates, fps, least_noise, context);
   for (auto& frame : candidates) std::erase_if(frame, [&](const Candidate& c) { return c.body >= 0 && c.body != body; });
-  return find_chain(shot, candidates, body, fps, least_noise, context);
+  return find_chain(shot, camera, candidates, body, fps, least_noise, context);
 }
 
 bool differ(const Candidates& a, const Candidates& b) {
@@ -76,8 +78,10 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector
     return *tracks;
   }
   Tracks tracks = label(shot, camera, candidates, fps, kLeastSightingNoise, context);
-  if (tracks.meetings.empty())
-    if (std::optional<Tracks> found = search_chain(shot, camera, candidates, body, fps, kLeastSightingNoise, context)) return *found;
+  if (tracks.meetings.empty()) {
+    const std::vector<Candidate> seen = sightings_of(candidates, body);
+    if (std::optional<Tracks> found = search_chain(shot, camera, seen, body, fps, sighting_noise({seen}, kLeastSightingNoise), context)) return *found;
+  }
   return tracks;
 }
 

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace unseen::collision {
 namespace {
@@ -23,6 +25,9 @@ struct System {
     right += weight * value * row.transpose();
   }
 };
+
+/// ½ x², linear beyond 1.
+double huber(double x) { return std::abs(x) < 1.0 ? 0.5 * x * x : std::abs(x) - 0.5; }
 
 /// Coefficients of coordinate `axis` of the place at τ; a later impact moves both flights back by their velocities, which are those of `near`.
 Row coordinate(int axis, double tau, bool after, const Column& near) {
@@ -90,13 +95,20 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
 
 double misfit(const Problem& problem, const LinearFlight& flight, int body, double time) {
   double sum = 0.0;
+  std::array<double, 2> off_by_size = {}, count = {}, sigma = {};  // before and after: sizes of a flight are off together
   for (const PointObservation& seen : problem.points) {
     if (seen.body != body) continue;
     const double tau = seen.time - time;
     const Vec3 p = flight.p + tau * (seen.after ? flight.v_after : flight.v_before) + 0.5 * tau * tau * problem.gravity * problem.down;
     const double square = p.z() > 0.0 ? (problem.camera.project(p) - seen.pixel).squaredNorm() / (problem.pixel_sigma * problem.pixel_sigma) : 2.0 * kMostMisfit;
     sum += std::min(0.5 * square, kMostMisfit);
+    if (!problem.terms.size || seen.depth <= 0.0 || p.z() <= 0.0) continue;
+    off_by_size[seen.after] += std::log(p.z() / seen.depth);
+    sigma[seen.after] = seen.depth_sigma;
+    count[seen.after] += 1.0;
   }
+  for (std::size_t side = 0; side < 2; ++side)
+    if (count[side] > 0.0) sum += huber(off_by_size[side] / std::sqrt(count[side]) / sigma[side]);
   return sum;
 }
 

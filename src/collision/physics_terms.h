@@ -20,6 +20,16 @@ struct GravityTerm : Base {
   }
 };
 
+/// Walls are plumb; friction and spin turn the impulse a little.
+struct PlumbTerm : Base {
+  static constexpr int kResiduals = 1;
+  template <class T>
+  void of_state(const StateT<T>& s, T* r) const {
+    constexpr double kSigma = 0.1;  // rad
+    r[0] = (problem.fixed_normal ? s.down.dot(problem.fixed_normal->cast<T>()) : s.down.dot(s.impulse) / s.impulse.norm()) / kSigma;
+  }
+};
+
 /// An impact takes energy, Eq. 5.19.
 struct EnergyTerm : Base {
   static constexpr int kResiduals = 1;

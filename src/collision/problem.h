@@ -62,6 +62,7 @@ struct Problem {
   bool fixed = false;                  ///< the second body never moves
   std::optional<Vec3> fixed_normal;    ///< of the fixed body, towards the first
   bool level = false;                  ///< the fixed body is a level floor: its normal is up by the state's own vertical
+  bool plumb = false;                  ///< the fixed body is a wall: its normal, or the impulse where that is not known, is about level
   std::optional<double> fixed_offset;  ///< of its plane along the normal, m, if known
   std::vector<OtherContact> other_contacts;  ///< with the same plane, before and after this impact
   std::optional<double> mass_ratio;    ///< known

@@ -144,6 +144,7 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
       adder.add("orientation", OrientationTerm{base, problem.orientations[i], evaluation.turned[i]}, new ceres::HuberLoss(kOrientationHuber));
   if (!problem.orientations.empty()) adder.add("spin", SpinTerm{base});
   if (terms.gravity && problem.gravity > 0.0) adder.add("gravity", GravityTerm{base});
+  if (terms.gravity && problem.plumb) adder.add("plumb", PlumbTerm{base});
   if (terms.energy) adder.add("energy", EnergyTerm{base});
   if (terms.restitution) adder.add("restitution", RestitutionTerm{base});
   if (touch && reference.law) adder.add("friction", FrictionTerm{base});

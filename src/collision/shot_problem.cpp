@@ -29,7 +29,18 @@ void add_points(const Tracks& tracks, int span_index, bool after, const ShotCame
   }
 }
 
+std::optional<Vec3> fixed_normal(const Shot& shot) {
+  return shot.bodies[1].normal ? shot.bodies[1].normal : shot.floor ? std::optional(shot.floor->normal) : std::nullopt;
+}
+
 }  // namespace
+
+std::optional<GivenDown> given_down(const Shot& shot) {
+  if (shot.down) return GivenDown{*shot.down, kDownGivenSigma};
+  const std::optional<Vec3> normal = shot.bodies[1].shape == Shape::fixed ? fixed_normal(shot) : std::nullopt;
+  if (!normal || line_angle(*normal, -Vec3::UnitY()) >= kFloor || normal->y() >= 0.0) return std::nullopt;
+  return GivenDown{-*normal, kLevelSigma};
+}
 
 ShotCamera complete_camera(const Shot& shot, int width, int height) {
   ShotCamera c = shot.camera;
@@ -55,8 +66,9 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
   problem.camera = camera.camera;
   problem.focal_assumed = camera.assumed;
   problem.gravity = shot.gravity;
-  problem.down = shot.down.value_or(Vec3::UnitY());
-  problem.down_sigma = shot.down ? kDownGivenSigma : kDownSigma;
+  const GivenDown down = given_down(shot).value_or(GivenDown{Vec3::UnitY(), kDownSigma});
+  problem.down = down.down;
+  problem.down_sigma = down.sigma;
   problem.solids = solids;
   problem.fixed = shot.bodies[1].shape == Shape::fixed;
   problem.planar = shot.gravity == 0.0;
@@ -65,11 +77,7 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
   problem.pixel_sigma = std::max(0.1, tracks.noise);
   problem.filmed = !shot.video.empty();
   problem.orientation_sigma = radians(options.orientation_noise);
-  if (problem.fixed) problem.fixed_normal = shot.bodies[1].normal ? shot.bodies[1].normal : shot.floor ? std::optional(shot.floor->normal) : std::nullopt;
-  if (problem.fixed_normal && !shot.down && line_angle(*problem.fixed_normal, -Vec3::UnitY()) < kFloor && problem.fixed_normal->y() < 0.0) {
-    problem.down = -*problem.fixed_normal;
-    problem.down_sigma = kLevelSigma;
-  }
+  if (problem.fixed) problem.fixed_normal = fixed_normal(shot);
   if (problem.fixed && shot.floor && !shot.bodies[1].normal) problem.fixed_offset = shot.floor->offset;
   if (options.fix_mass_ratio && !problem.fixed) {
     if (!shot.bodies[0].mass || !shot.bodies[1].mass) throw InputError(shot.name, "bodies", "no mass", "the mass of both bodies, for fix_mass_ratio");
@@ -81,7 +89,7 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
   for (const int span : meeting.after) add_points(tracks, span, true, camera, solids, problem);
   if (problem.planar && shot.metres_per_pixel)
     for (PointObservation& p : problem.points) p.depth = camera.camera.fx * *shot.metres_per_pixel, p.depth_sigma = 1e-3;
-  if (problem.filmed && !problem.planar) problem.trends = size_trends(problem);
+  if (!problem.planar && (problem.filmed || problem.fixed)) problem.trends = size_trends(problem);  // of two bodies momentum tells more
   return problem;
 }
 

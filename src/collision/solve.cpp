@@ -237,4 +237,9 @@ Estimate restitution_of(const Problem& problem, const Fit& fit) {
 
 Estimate mass_ratio_of(const Problem& problem, const Fit& fit) { return estimate(wide_state(problem, fit.state).mass_ratio, fit.covariance); }
 
+Estimate energy_kept_of(const Problem& problem, const Fit& fit) {
+  const StateT<Wide> s = wide_state(problem, fit.state);
+  return estimate(kinetic_energy<Wide>(problem, s, true) / kinetic_energy<Wide>(problem, s, false), fit.covariance);
+}
+
 }  // namespace unseen::collision

@@ -31,8 +31,10 @@ Fit settle(const Problem& problem, const State& start);
 /// Fills in the covariance of a fit.
 void add_covariance(const Problem& problem, Fit& fit);
 
-/// Value and standard deviation (delta method) of restitution and mass ratio; the covariance must be there.
+/// Value and standard deviation (delta method) of restitution, mass ratio, and kinetic energy after the impact over that before; the covariance
+/// must be there.
 Estimate restitution_of(const Problem& problem, const Fit& fit);
 Estimate mass_ratio_of(const Problem& problem, const Fit& fit);
+Estimate energy_kept_of(const Problem& problem, const Fit& fit);
 
 }  // namespace unseen::collision

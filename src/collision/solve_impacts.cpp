@@ -16,12 +16,15 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kFloor = 0.35;     // rad: an impulse that is this near to the vertical comes from a floor
+constexpr double kFloor = 0.35;     // rad: an impulse that is this near to the vertical comes from a floor, and
+constexpr double kWall = 0.35;      // rad: one that is this near to level from a wall
 
-void add_floor(Problem& problem, const State& state) {
+/// Floors are level, and walls plumb, as far as the shot does not say where down is.
+void add_floor_or_wall(Problem& problem, const State& state) {
   if (!problem.fixed || problem.gravity == 0.0) return;
   const Vec3 up = -state.down;
-  problem.level = line_angle(up, state.impulse) <= kFloor && state.impulse.dot(up) > 0.0;
+  if (!problem.fixed_normal) problem.level = line_angle(up, state.impulse) <= kFloor && state.impulse.dot(up) > 0.0;
+  problem.plumb = problem.down_sigma >= kDownSigma && std::abs(line_angle(up, problem.fixed_normal.value_or(state.impulse)) - 0.5 * kPi) <= kWall;
 }
 
 void settle_again(SolvedImpact& impact) {
@@ -55,10 +58,8 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     impact.solution = solve(tracks);
     settle_split(solve, impact.meeting, 1.0 / fps, tracks, impact.solution);
     if (!impact.solution.fit.usable) continue;
-    if (!impact.solution.problem.fixed_normal) {
-      add_floor(impact.solution.problem, impact.solution.fit.state);
-      settle_again(impact);
-    }
+    add_floor_or_wall(impact.solution.problem, impact.solution.fit.state);
+    if (impact.solution.problem.level || impact.solution.problem.plumb) settle_again(impact);
     impacts.push_back(std::move(impact));
     context.progress(static_cast<double>(impacts.size()) / static_cast<double>(tracks.meetings.size()));
   }

@@ -56,7 +56,7 @@ std::pair<double, double> around(const Tracks& tracks, const Tracks::Meeting& me
 }  // namespace
 
 void settle_split(const std::function<Solution(const Tracks&)>& solve, const Tracks::Meeting& meeting, double frame_time, Tracks& tracks, Solution& solution) {
-  if (meeting.before.size() != 2 || meeting.after.size() != 2) return;
+  if (meeting.before.size() != meeting.after.size()) return;
   for (int move = 0; move < kMostMoves && solution.fit.usable; ++move) {
     const auto [last, first] = around(tracks, meeting);
     const double time = solution.fit.state.time, near = kNear * frame_time, between = 0.25 * frame_time;

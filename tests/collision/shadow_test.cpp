@@ -192,7 +192,7 @@ TEST(Shadow, AFlatShadowIsFollowedLessThanItsBall) {
     candidates[static_cast<std::size_t>(k)] = {ball, shadow};
   }
   Context context;
-  const Tracks tracks = find_chain(bounce_shot(), candidates, 0, 120.0, 0.3, context);
+  const Tracks tracks = find_chain(bounce_shot(), ShotCamera(), candidates, 0, 120.0, 0.3, context);
   ASSERT_FALSE(tracks.points.empty());
   for (const TrackPoint& p : tracks.points) EXPECT_EQ(p.diameter, 36.0);
 }

@@ -18,7 +18,7 @@ Problem flight(double speed, double scale, double noise, Random& random) {
   Body ball;
   ball.radius = 0.1;
   problem.solids = {solid_of(ball, "test"), solid_of(ball, "test")};
-  problem.fixed = true;
+  problem.fixed = problem.filmed = true;
   for (int k = 0; k <= 48; ++k) {
     const double t = k / 120.0, depth = (2.5 + speed * t) * scale * std::exp(noise * random.normal());
     problem.points.push_back({0, false, k, t, Vec2::Zero(), depth, 0.04});

@@ -46,7 +46,9 @@ double restitution_of(const Solution& s) { return restitution<double>(s.problem,
 
 Solution solved(const SynthShot& synth, const Problem& problem) {
   Context context;
-  return best_fit(problem, synth.truth.impacts[0].time + 0.5 / synth.truth.fps, 6, context);
+  Solution solution = best_fit(problem, synth.truth.impacts[0].time + 0.5 / synth.truth.fps, 6, context);
+  add_covariance(problem, solution.fit);
+  return solution;
 }
 
 TEST(Solve, RecoversRestitutionAndMassRatioOfExactTracks) {
