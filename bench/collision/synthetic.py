@@ -123,15 +123,26 @@ def spin(bench):
     return ["case", "scene", "seed", "spin_after", "turned_deg", "right_turns", *MEASURES], bench.run(spin_case, cases), say_all
 
 
+def sizes_off_by(share, seed):
+    """Radii with uniform noise of up to so much of themselves."""
+    random = np.random.default_rng([round(1e4 * share), seed])
+
+    def disturb(sightings):
+        return [s | {"radius": s["radius"] * (1 + random.uniform(-share, share))} if "radius" in s else s for s in sightings]
+
+    return disturb
+
+
 def coverage(bench):
-    """Do the 95 % intervals hold the truth?"""
+    """Do the 95 % intervals hold the truth? Radii are as noisy as centres."""
     random = np.random.default_rng(1)
     kinds = ["balls"] * 10 + ["planar"] * 3 + ["ball-floor"] * 2 + ["boxes"] * 3 + ["offcentre", "box-ball"]
     cases = []
     for i in range(200):
         scene = kinds[i % len(kinds)]
         level = {"centroid_noise": round(random.uniform(0.005, 0.06), 4), "orientation_noise": round(random.uniform(1, 6), 2)}
-        cases.append({"name": f"coverage-{scene}-{i + 1}", "synth": {"scene": scene, "fps": 120, "seed": i + 1, **level}, "scene": scene, **level})
+        cases.append({"name": f"coverage-{scene}-{i + 1}", "synth": {"scene": scene, "fps": 120, "seed": i + 1, **level},
+                      "disturb": sizes_off_by(level["centroid_noise"], i + 1), "scene": scene, **level})
     fields = ["case", "scene", "centroid_noise", "orientation_noise", "seed", *MEASURES]
     return fields, bench.run(simulated, cases), lambda rows: by(rows, "scene", "scene")
 

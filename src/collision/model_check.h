@@ -21,6 +21,7 @@ struct ModelCheck {
 };
 
 /// Solves once more without every `every`th frame and predicts those; looks for a trend along each flight. `noise` (px): of the tracks by themselves.
+/// The fit's covariance must be there: energy may grow within its noise.
 ModelCheck check_model(const Solution& solution, int every, double noise);
 
 }  // namespace unseen::collision
