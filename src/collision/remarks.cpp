@@ -29,6 +29,15 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
   }
 }
 
+/// What the shot says of down is held on to, but flights may say otherwise.
+void compare_down(const Shot& shot, const SolvedImpact& impact, Context& context) {
+  constexpr double kWrong = 0.05;  // rad
+  if (!shot.down || shot.gravity == 0.0) return;
+  const Vec3 &given = *shot.down, &found = impact.solution.fit.state.down;
+  const double off = std::atan2(given.cross(found).norm(), given.dot(found));
+  if (off > kWrong) context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(off)));
+}
+
 /// Bodies are told apart by their sizes, if nobody labelled them: sizes that are alike tell little, and where none was seen the mass ratio might
 /// as well be the other way round.
 void doubt_labels(const Shot& shot, const Tracks& tracks, const SolvedImpact& impact, Reconstruction& result, Context& context) {
@@ -57,6 +66,7 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
 void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   doubt_labels(shot, tracks, impacts.front(), result, context);
   compare_scales(shot, impacts, context);
+  compare_down(shot, impacts.front(), context);
   if (result.fixed.empty() && tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
   const bool refused = std::any_of(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return !i.check.reasons.empty(); });
   if (!result.fits && refused)

@@ -73,6 +73,16 @@ TEST(Unused, FloorsAndOrientationsThatTellNothingAreRemarkedOn) {
   EXPECT_TRUE(says(solve(shot), "orientations: those of " + shot.bodies[0].name));
 }
 
+TEST(GivenDown, IsComparedWithTheFlights) {
+  Shot shot = tracks("balls", 1).shot;
+  const Vec3 down = solve(shot).T_world_camera.rotation.transpose() * -Vec3::UnitZ();
+  for (const double wrong : {0.0, 20.0, 180.0}) {
+    shot.down = Eigen::AngleAxisd(radians(wrong), Vec3::UnitZ()) * down;
+    const Reconstruction r = solve(shot);
+    EXPECT_EQ(says(r, "down: by the flights") || !r.fits, wrong > 0.0) << wrong;
+  }
+}
+
 TEST(HitsOffTheCentre, OfBodiesKnownByTheirSizeAreCounted) {
   int held = 0;
   for (int seed = 1; seed <= 4; ++seed) {
