@@ -200,7 +200,7 @@ Footage find_regions(const Shot& shot, Context& context) {
   if (footage.moving_camera)
     context.warn(fmt::format("{}: the camera moves, by up to {:.0f} px; a camera on a stand is expected", shot.video, motion.largest));
   const auto repeats = std::count(footage.doubled.begin(), footage.doubled.end(), 1);
-  if (repeats > 0) context.warn(fmt::format("{}: {} frames repeat the one before; they are left out", shot.video, repeats));
+  if (repeats > 0) context.warn(fmt::format("{}: {} repeat{} the one before; left out", shot.video, repeats == 1 ? "1 frame" : fmt::format("{} frames", repeats), repeats == 1 ? "s" : ""));
   const Background background = find_background(registered(survey, footage), context);
   second_pass(shot, survey, background, footage, context);
   mark_covered(background, survey.view.tl(), survey.scale, footage, context);
