@@ -79,10 +79,8 @@ std::optional<double> Flights::cost(const std::vector<std::vector<Candidate>>& b
     if (split < begin + fewest || (u && last < split + fewest)) return std::nullopt;
     for (const auto& [from, to] : {std::pair{begin, split}, std::pair{split, last}}) {
       if (from == to) continue;
-      const std::size_t first = tracks.points.size();
-      for (std::size_t i = from; i < to; ++i) tracks.points.push_back(point_of(seen[i], body, fps));
       (from == begin ? meeting.before : meeting.after).push_back(static_cast<int>(tracks.spans.size()));
-      tracks.spans.push_back({body, first, tracks.points.size()});
+      add_flight(seen, from, to, body, fps, tracks);
     }
   }
   const Problem problem = problem_of(shot_, Options{}, camera_, solids_, tracks, meeting);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 
 #include "unseen/collision/types.h"
 #include "unseen/core/random.h"
@@ -26,18 +27,24 @@ inline Mat3 world_to_camera(const View& view) {
   return Eigen::AngleAxisd(radians(view.roll), Vec3::UnitZ()) * Eigen::AngleAxisd(radians(view.pitch), Vec3::UnitX()) * level;
 }
 
+/// A ball and something fixed that was not seen yet.
+inline Shot ball_and(const std::string& fixed, double radius, double fps, double focal) {
+  Shot shot;
+  shot.name = "shot";
+  shot.fps = fps;
+  shot.camera.camera = {focal, focal, 639.5, 359.5, 1280, 720};
+  shot.bodies.resize(2);
+  shot.bodies[0].name = "ball";
+  shot.bodies[0].radius = radius;
+  shot.bodies[1].name = fixed;
+  shot.bodies[1].shape = Shape::fixed;
+  return shot;
+}
+
 /// Sightings at 60 pictures a second, each off by 0.3 px, of a ball without friction; the vertical is not told.
 inline Shot filmed(const View& view, int seed) {
   constexpr double kFps = 60.0, kNoise = 0.3;
-  Shot shot;
-  shot.name = "shot";
-  shot.fps = kFps;
-  shot.camera.camera = {1108.5, 1108.5, 639.5, 359.5, 1280, 720};
-  shot.bodies.resize(2);
-  shot.bodies[0].name = "ball";
-  shot.bodies[0].radius = kBallRadius;
-  shot.bodies[1].name = "floor";
-  shot.bodies[1].shape = Shape::fixed;
+  Shot shot = ball_and("floor", kBallRadius, kFps, 1108.5);
   const Mat3 R = world_to_camera(view);
   const Vec3 n = Eigen::AngleAxisd(radians(view.tilt), Vec3::UnitY()) * Vec3::UnitZ(), g(0, 0, -kGravity);
   Random random(static_cast<std::uint64_t>(seed));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "collision/chain.h"
+#include "collision/filmed_bounce.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
 #include "unseen/core/random.h"
@@ -23,15 +24,7 @@ Vec3 place(double time, double pitch, double c) {
 }
 
 Shot thrown_at_wall(double pitch, std::uint64_t seed, double c = kC, bool sized = true) {
-  Shot shot;
-  shot.name = "wall";
-  shot.fps = kFps;
-  shot.camera.camera = {1000, 1000, 639.5, 359.5, 1280, 720};
-  shot.bodies.resize(2);
-  shot.bodies[0].name = "ball";
-  shot.bodies[0].radius = kRadius;
-  shot.bodies[1].name = "wall";
-  shot.bodies[1].shape = Shape::fixed;
+  Shot shot = ball_and("wall", kRadius, kFps, 1000);
   Random random(seed);
   for (int frame = 0; frame < 90; ++frame) {
     const Vec3 p = place(frame / kFps, pitch, c);
