@@ -24,7 +24,7 @@ namespace unseen::cli {
 namespace {
 
 /// Everything that `unseen collision` can be told.
-struct Arguments {
+struct CollisionArguments {
   std::string input, out, shell_command;
   CommonFlags common;
   bool no_report = false, no_overlay = false;
@@ -46,7 +46,7 @@ void print_impacts(const collision::Reconstruction& r) {
     fmt::print("{} impacts, the first at frame {:.2f} ({:.4f} s)\n", r.impacts.size(), first.frame, first.time);
 }
 
-void print_summary(const collision::Reconstruction& r, const Arguments& args) {
+void print_summary(const collision::Reconstruction& r, const CollisionArguments& args) {
   print_impacts(r);
   fmt::print("restitution: {}\n", r.restitution ? text_of(*r.restitution) : "no confident value");
   if (r.fixed.empty() && r.bodies.size() == 2)
@@ -63,7 +63,7 @@ void print_summary(const collision::Reconstruction& r, const Arguments& args) {
              (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
 }
 
-void write_files(const collision::Shot& shot, collision::Reconstruction& r, const Arguments& args, const OptionTable& table,
+void write_files(const collision::Shot& shot, collision::Reconstruction& r, const CollisionArguments& args, const OptionTable& table,
                  const io::OutputFolder& out, Context& context) {
   const report::InputRecord input = {args.input, io::sha256(args.input, context)};
   std::vector<collision::OverlayPicture> pictures;
@@ -78,7 +78,7 @@ void write_files(const collision::Shot& shot, collision::Reconstruction& r, cons
   if (!r.frames.empty()) write_text(out.file("scene.glb"), report::collision_glb(shot, r));
 }
 
-int run(Arguments& args) {
+int run(CollisionArguments& args) {
   OptionTable table = collision::describe(args.options);
   if (resolve_or_dump(table, args.common, "collision", args.given)) return kSolved;
   require(args.input, "SHOT.json");
@@ -107,7 +107,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_collision(CLI::App& app, const std::string& shell_command) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<CollisionArguments>();
   args->shell_command = shell_command;
   CLI::App* sub = app.add_subcommand("collision", "Reconstruct two bodies that collide once, or one that bounces, from a video");
   sub->add_option("SHOT", args->input, "a shot file (SHOT.json): the video, the camera, the two bodies");

@@ -14,14 +14,14 @@
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
   std::string in, out;
   CommonFlags common;
   GivenOptions given;
   io::ReadOptions read;
 };
 
-int run(Arguments& args) {
+int run(ConvertArguments& args) {
   OptionTable table = io::describe(args.read);
   if (resolve_or_dump(table, args.common, "convert", args.given)) return kSolved;
   require(args.in, "IN");
@@ -50,7 +50,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_convert(CLI::App& app) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ConvertArguments>();
   CLI::App* sub =
       app.add_subcommand("convert", "Turn any cloud that can be read into ply, pcd, xyz, csv or las");
   sub->add_option("IN", args->in, "a point cloud, a mesh, an image, or a folder of depth frames or tiles");

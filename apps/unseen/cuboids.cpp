@@ -29,7 +29,7 @@ namespace unseen::cli {
 namespace {
 
 /// Everything that `unseen cuboids` can be told.
-struct Arguments {
+struct CuboidsArguments {
   std::string input, out, shell_command;
   std::vector<std::string> supports;  ///< planes, or with --check the names of blocks
   CheckArguments check;
@@ -44,7 +44,7 @@ std::string plural(std::size_t count, const std::string& one, const std::string&
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-void print_summary(const cuboids::Completion& c, const Arguments& args) {
+void print_summary(const cuboids::Completion& c, const CuboidsArguments& args) {
   const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(), [](const cuboids::Cuboid& cuboid) {
     constexpr double kNoticeable = 1.01;
     return cuboid.box.volume() > kNoticeable * cuboid.initial.volume();
@@ -76,7 +76,7 @@ void print_summary(const cuboids::Completion& c, const Arguments& args) {
              (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
 }
 
-void write_files(const cuboids::Completion& c, const RgbdFrame& frame, Arguments& args, const OptionTable& table,
+void write_files(const cuboids::Completion& c, const RgbdFrame& frame, CuboidsArguments& args, const OptionTable& table,
                  const io::OutputFolder& out, const Context& context) {
   const report::InputRecord input = {args.input, io::sha256(args.input, context)};
   if (!args.no_report)
@@ -90,7 +90,7 @@ void write_files(const cuboids::Completion& c, const RgbdFrame& frame, Arguments
   write_text(out.file("scene.urdf"), report::cuboids_urdf(c, args.options.method.friction));
 }
 
-int run(Arguments& args) {
+int run(CuboidsArguments& args) {
   OptionTable table = args.options.table();
   const bool check = !args.check.assembly.empty();
   if (!args.supports.empty() && !check)
@@ -147,7 +147,7 @@ OptionTable CuboidsOptions::table() {
 }
 
 Command add_cuboids(CLI::App& app, const std::string& shell_command) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<CuboidsArguments>();
   args->shell_command = shell_command;
   CLI::App* sub = app.add_subcommand("cuboids", "Complete a single RGB-D frame by boxes that stand");
   sub->add_option("FRAME", args->input,

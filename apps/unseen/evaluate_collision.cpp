@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct EvaluateCollisionArguments {
   std::string result, truth;
   CommonFlags common;
 };
 
-int run(Arguments& args) {
+int run(EvaluateCollisionArguments& args) {
   OptionTable table;
   if (resolve_or_dump(table, args.common, "evaluate", {})) return kSolved;
   require(args.result, "OUT");
@@ -50,7 +50,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_evaluate_collision(CLI::App& evaluate) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<EvaluateCollisionArguments>();
   CLI::App* sub = evaluate.add_subcommand("collision", "Measure a result of unseen collision, and write evaluation.json into it");
   sub->add_option("OUT", args->result, "the folder that unseen collision wrote");
   sub->add_option("--truth", args->truth, "truth.json of unseen synth collision")->type_name("TRUTH");

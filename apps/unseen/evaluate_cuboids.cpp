@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct EvaluateCuboidsArguments {
   std::string result, truth, frame, hidden;
   CommonFlags common;
   GivenOptions given;
@@ -34,12 +34,12 @@ struct Arguments {
   }
 };
 
-cuboids::Truth read_truth(const Arguments& args) {
+cuboids::Truth read_truth(const EvaluateCuboidsArguments& args) {
   if (args.frame.empty()) return report::read_cuboids_truth(args.truth);
   return report::read_measured_truth(args.truth, args.frame, report::parse_hidden_dimensions(args.hidden, kCommandLine));
 }
 
-int run(Arguments& args) {
+int run(EvaluateCuboidsArguments& args) {
   OptionTable table = args.table();
   if (resolve_or_dump(table, args.common, "evaluate", args.given)) return kSolved;
   require(args.result, "OUT");
@@ -67,7 +67,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_evaluate_cuboids(CLI::App& evaluate) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<EvaluateCuboidsArguments>();
   CLI::App* sub =
       evaluate.add_subcommand("cuboids", "Measure a result of unseen cuboids, and write evaluation.json into it");
   sub->add_option("OUT", args->result, "the folder that unseen cuboids wrote");

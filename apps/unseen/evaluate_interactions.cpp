@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct EvaluateInteractionsArguments {
   std::string result, truth, original;
   std::vector<int> interacted;
   CommonFlags common;
 };
 
-interactions::Recording read_truth(const Arguments& args) {
+interactions::Recording read_truth(const EvaluateInteractionsArguments& args) {
   interactions::Recording truth = report::read_recording(args.truth);
   for (const int id : args.interacted)
     if (std::none_of(truth.objects.begin(), truth.objects.end(), [id](const auto& o) { return o.id == id; }))
@@ -33,7 +33,7 @@ interactions::Recording read_truth(const Arguments& args) {
   return truth;
 }
 
-int run(Arguments& args) {
+int run(EvaluateInteractionsArguments& args) {
   OptionTable table;
   if (resolve_or_dump(table, args.common, "evaluate", {})) return kSolved;
   if (args.original.empty()) require(args.result, "OUT");
@@ -56,7 +56,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_evaluate_interactions(CLI::App& evaluate) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<EvaluateInteractionsArguments>();
   CLI::App* sub = evaluate.add_subcommand("interactions", "Measure a result of unseen interactions, and write evaluation.json into it");
   CLI::Option* out = sub->add_option("OUT", args->result, "the folder that unseen interactions wrote");
   sub->add_option("--truth", args->truth, "a scene folder with the truth in its gt/, of i3DB or unseen synth interactions")->type_name("SCENE");

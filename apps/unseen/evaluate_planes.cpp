@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct EvaluatePlanesArguments {
   std::string result, truth;
   CommonFlags common;
   GivenOptions given;
@@ -107,7 +107,7 @@ bool may_be_mesh(const fs::path& path) {
 }
 
 /// Compares with what the truth turns out to be: another result, a mesh, or a cloud with labels.
-void compare(const Scored& scored, const Arguments& args, report::PlanesEvaluation& e, Context& context) {
+void compare(const Scored& scored, const EvaluatePlanesArguments& args, report::PlanesEvaluation& e, Context& context) {
   const planes::EvaluateOptions options = {e.scale, static_cast<std::size_t>(args.pairs),
                                            static_cast<std::uint64_t>(args.seed)};
   const std::vector<int> plane_of_point = planes_of(scored.points);
@@ -137,7 +137,7 @@ void compare(const Scored& scored, const Arguments& args, report::PlanesEvaluati
   e.labels = planes::evaluate_against_labels(plane_of_point, planes_of(truth), args.overlap);
 }
 
-int run(Arguments& args) {
+int run(EvaluatePlanesArguments& args) {
   OptionTable table = args.table();
   if (resolve_or_dump(table, args.common, "evaluate", args.given)) return kSolved;
   require(args.result, "OUT");
@@ -164,7 +164,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_evaluate_planes(CLI::App& evaluate) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<EvaluatePlanesArguments>();
   CLI::App* sub = evaluate.add_subcommand(
       "planes", "Measure a result of unseen planes, and write evaluation.json into it");
   sub->add_option("OUT", args->result, "the folder that unseen planes wrote");

@@ -30,7 +30,7 @@ namespace unseen::cli {
 namespace {
 
 /// Everything that `unseen interactions` can be told.
-struct Arguments {
+struct InteractionsArguments {
   std::vector<std::string> inputs, databases, videos;
   std::string out, shell_command;
   CommonFlags common;
@@ -75,7 +75,7 @@ std::string write_evidence(const interactions::EvidenceMap& map, const io::Outpu
   return read_text(path, kLargestPicture);
 }
 
-void write_files(const std::vector<interactions::Take>& takes, interactions::Reconstruction& r, const Arguments& args, const OptionTable& table,
+void write_files(const std::vector<interactions::Take>& takes, interactions::Reconstruction& r, const InteractionsArguments& args, const OptionTable& table,
                  const io::OutputFolder& out, Context& context) {
   const report::InputRecord input = record_of(args.inputs, context);
   for (std::size_t p = 0; p < r.people.size(); ++p) {
@@ -98,7 +98,7 @@ std::string counted(std::size_t count, const char* one, const char* more) {
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-void print_summary(const interactions::Reconstruction& r, const Arguments& args) {
+void print_summary(const interactions::Reconstruction& r, const InteractionsArguments& args) {
   for (const interactions::FoundObject& found : r.objects) {
     const Vec3 place = found.object.center();
     fmt::print("{} at {:.2f}, {:.2f} m: confidence {:.2f}, {}\n", found.object.category, place.x(), place.y(), found.confidence,
@@ -114,7 +114,7 @@ void print_summary(const interactions::Reconstruction& r, const Arguments& args)
              (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
 }
 
-int run(Arguments& args) {
+int run(InteractionsArguments& args) {
   OptionTable table = args.options.table();
   if (!args.databases.empty()) args.given.emplace_back("scenelets", fmt::format("{}", fmt::join(args.databases, ";")));
   if (resolve_or_dump(table, args.common, "interactions", args.given)) return kSolved;
@@ -163,7 +163,7 @@ OptionTable InteractionsOptions::table() {
 }
 
 Command add_interactions(CLI::App& app, const std::string& shell_command) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<InteractionsArguments>();
   args->shell_command = shell_command;
   CLI::App* sub = app.add_subcommand("interactions", "Find the furniture that people use, and their whole motion, from 2D joints alone");
   sub->add_option("TAKE", args->inputs,

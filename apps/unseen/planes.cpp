@@ -29,7 +29,7 @@ namespace {
 constexpr std::size_t kPointsInModels = 200'000;
 
 /// Everything that `unseen planes` can be told.
-struct Arguments {
+struct PlanesArguments {
   std::string input, out, shell_command;
   CommonFlags common;
   bool no_report = false, no_points = false;
@@ -54,7 +54,7 @@ std::string plural(std::size_t count, const std::string& one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-void print_summary(const planes::Arrangement& a, const Arguments& args, bool drawing_expected) {
+void print_summary(const planes::Arrangement& a, const PlanesArguments& args, bool drawing_expected) {
   const std::size_t points = report::count_of(a.summary, "points"), assigned = report::count_of(a.summary, "assigned");
   const bool estimated = !args.options.scale && !args.options.relative_scale;
   const std::string thing = a.two_dimensional ? "line" : "plane";
@@ -82,7 +82,7 @@ void add_notes(const SourceInfo& info, Summary& summary) {
       summary.warnings.push_back(note);
 }
 
-void write_files(const planes::Arrangement& a, const Arguments& args, const OptionTable& table,
+void write_files(const planes::Arrangement& a, const PlanesArguments& args, const OptionTable& table,
                  Streamed& streamed, const io::OutputFolder& out, const Context& context) {
   const report::InputRecord input = {args.input, io::sha256(args.input, context)};
   if (!args.no_report)
@@ -112,7 +112,7 @@ void write_files(const planes::Arrangement& a, const Arguments& args, const Opti
   write_text(out.file("drawing.svg"), report::drawing_svg(a));
 }
 
-int run(Arguments& args) {
+int run(PlanesArguments& args) {
   OptionTable table = args.table();
   if (resolve_or_dump(table, args.common, "planes", args.given)) return kSolved;
   require(args.input, "CLOUD");
@@ -150,7 +150,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_planes(CLI::App& app, const std::string& shell_command) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<PlanesArguments>();
   args->shell_command = shell_command;
   CLI::App* sub =
       app.add_subcommand("planes", "Find planes with exact relations in a scan, or lines in a drawing");

@@ -17,7 +17,7 @@
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct SceneletsBuildArguments {
   std::vector<std::string> folders, databases;
   std::string out;
   int synth = 0, seed = 1;
@@ -43,7 +43,7 @@ interactions::Recording synthetic(int seed) {
   return interactions::simulate(options).truth;
 }
 
-std::vector<interactions::Recording> read_recordings(const Arguments& args, Context& context) {
+std::vector<interactions::Recording> read_recordings(const SceneletsBuildArguments& args, Context& context) {
   std::vector<interactions::Recording> recordings;
   const double count = static_cast<double>(args.folders.size()) + args.synth;
   for (const std::string& folder : args.folders) {
@@ -57,7 +57,7 @@ std::vector<interactions::Recording> read_recordings(const Arguments& args, Cont
   return recordings;
 }
 
-int run(Arguments& args) {
+int run(SceneletsBuildArguments& args) {
   OptionTable table = args.table();
   if (resolve_or_dump(table, args.common, "scenelets", args.given)) return kSolved;
   if (args.folders.empty() && args.databases.empty() && args.synth == 0) throw UsageError("FOLDER, --add DB or --synth N is missing");
@@ -99,7 +99,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_scenelets_build(CLI::App& scenelets) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<SceneletsBuildArguments>();
   CLI::App* sub = scenelets.add_subcommand("build", "Cut recordings of people among furniture into a database of scenelets");
   sub->add_option("FOLDER", args->folders, "scene folders with a gt/, of i3DB or of unseen synth interactions");
   sub->add_option("--add", args->databases, "databases whose scenelets are added")->type_name("DB");

@@ -12,12 +12,12 @@
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct SceneletsInfoArguments {
   std::string database;
   bool json = false;
 };
 
-int run(const Arguments& args) {
+int run(const SceneletsInfoArguments& args) {
   const interactions::Database read = args.database.empty() ? interactions::Database{} : report::read_database(args.database);
   const interactions::Database& database = args.database.empty() ? report::shipped_database() : read;
   fmt::print("{}", args.json ? report::database_info_json(database) : report::database_info_table(database));
@@ -27,7 +27,7 @@ int run(const Arguments& args) {
 }  // namespace
 
 Command add_scenelets_info(CLI::App& scenelets) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<SceneletsInfoArguments>();
   CLI::App* sub = scenelets.add_subcommand("info", "Say what a database of scenelets holds, and where it comes from");
   sub->add_option("DB", args->database, "the database (default: the one that comes with the program)");
   sub->add_flag("--json", args->json, "as JSON");

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct StageArguments {
   std::vector<std::string> inputs;
   std::string out, shell_command;
   CommonFlags common;
@@ -33,7 +33,7 @@ collision::StagePlan plan_of(const std::vector<std::string>& inputs) {
   return is_list ? report::read_stage_list(inputs.front()) : report::stage_side_by_side(inputs);
 }
 
-void write_files(const collision::StagedShot& shot, const Arguments& args, const io::OutputFolder& out, Context& context) {
+void write_files(const collision::StagedShot& shot, const StageArguments& args, const io::OutputFolder& out, Context& context) {
   const fs::path first = fs::is_directory(args.inputs.front()) ? fs::path(args.inputs.front()) / "result.json" : fs::path(args.inputs.front());
   const report::InputRecord input = {args.inputs.front(), io::sha256(first.string(), context)};
   write_text(out.file("result.json"), report::stage_json(shot, input));
@@ -45,14 +45,14 @@ void write_files(const collision::StagedShot& shot, const Arguments& args, const
     write_text(out.file("report.html"), report::page_of(report::stage_title(input), {report::stage_scene(shot, input, args.shell_command)}));
 }
 
-void print_summary(const collision::StagedShot& shot, const Arguments& args) {
+void print_summary(const collision::StagedShot& shot, const StageArguments& args) {
   const auto name = [&](int i) { return i >= 0 ? shot.actors[static_cast<std::size_t>(i)].name : shot.walls[static_cast<std::size_t>(-1 - i)].name; };
   for (const collision::StagedImpact& i : shot.impacts)
     fmt::print("{:.4f} s: {} and {}, restitution {:.3f} of {:.3f}\n", i.time, name(i.between[0]), name(i.between[1]), i.restitution, i.expected);
   fmt::print("{}: {}\n", args.no_report ? "result" : "report", (fs::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
 }
 
-int run(Arguments& args) {
+int run(StageArguments& args) {
   OptionTable table;
   if (resolve_or_dump(table, args.common, "stage", {})) return kSolved;
   if (args.inputs.empty()) throw UsageError("LIST.toml is missing");
@@ -79,7 +79,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_stage(CLI::App& app, const std::string& shell_command) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<StageArguments>();
   args->shell_command = shell_command;
   CLI::App* sub = app.add_subcommand("stage", "Combine reconstructed collisions into a new shot");
   sub->add_option("LIST", args->inputs, "a shot list (TOML), or results of unseen collision, which then happen side by side");

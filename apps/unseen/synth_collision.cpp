@@ -17,7 +17,7 @@
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct SynthCollisionArguments {
   std::string out;
   CommonFlags common;
   GivenOptions given;
@@ -38,7 +38,7 @@ void write_texts(const collision::SynthShot& scene, const OptionTable& table, co
     if (body.shape == collision::Shape::mesh) write_text(out.file(body.name + ".obj"), report::body_obj(body));
 }
 
-int run(Arguments& args) {
+int run(SynthCollisionArguments& args) {
   OptionTable table = collision::describe(args.options);
   if (resolve_or_dump(table, args.common, "synth", args.given)) return kSolved;
   require(args.out, "-o DIR");
@@ -73,7 +73,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_synth_collision(CLI::App& synth) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<SynthCollisionArguments>();
   CLI::App* sub = synth.add_subcommand("collision", "Film two bodies that collide, with their true motion");
   sub->add_option("-o", args->out, "the folder for shot.json, truth.json, and shot.mp4 or observations.json")->type_name("DIR");
   add_flags(*sub, collision::describe(args->options), args->given);

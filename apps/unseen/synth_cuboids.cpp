@@ -17,7 +17,7 @@
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct SynthCuboidsArguments {
   std::string out;
   CommonFlags common;
   GivenOptions given;
@@ -35,7 +35,7 @@ void write_view(const std::filesystem::path& folder, const cuboids::SynthView& v
   io::write_grey_png(folder / "masks.png", width, height, view.masks);
 }
 
-int run(Arguments& args) {
+int run(SynthCuboidsArguments& args) {
   OptionTable table = cuboids::describe(args.options);
   if (resolve_or_dump(table, args.common, "synth", args.given)) return kSolved;
   require(args.out, "-o DIR");
@@ -68,7 +68,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_synth_cuboids(CLI::App& synth) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<SynthCuboidsArguments>();
   CLI::App* sub =
       synth.add_subcommand("cuboids", "Make pictures of stacked things or furniture with their true boxes and contacts");
   sub->add_option("-o", args->out, "the folder for view-0 to view-4, each a frame folder with truth.json")

@@ -15,7 +15,7 @@
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct SynthInteractionsArguments {
   std::string out;
   CommonFlags common;
   GivenOptions given;
@@ -30,7 +30,7 @@ void write_files(const std::vector<report::SceneFile>& files, const io::OutputFo
   }
 }
 
-int run(Arguments& args) {
+int run(SynthInteractionsArguments& args) {
   OptionTable table = interactions::describe(args.options);
   if (resolve_or_dump(table, args.common, "synth", args.given)) return kSolved;
   require(args.out, "-o DIR");
@@ -62,7 +62,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_synth_interactions(CLI::App& synth) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<SynthInteractionsArguments>();
   CLI::App* sub = synth.add_subcommand("interactions", "Let people walk, sit, reach and lie among furniture, as joint detections with their truth");
   sub->add_option("-o", args->out, "the folder for take.json, its joints, and the truth in gt/")->type_name("DIR");
   add_flags(*sub, interactions::describe(args->options), args->given);

@@ -16,14 +16,14 @@
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct SynthPlanesArguments {
   std::string out;
   CommonFlags common;
   GivenOptions given;
   planes::SynthOptions options;
 };
 
-int run(Arguments& args) {
+int run(SynthPlanesArguments& args) {
   OptionTable table = planes::describe(args.options);
   if (resolve_or_dump(table, args.common, "synth", args.given)) return kSolved;
   require(args.out, "-o DIR");
@@ -55,7 +55,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_synth_planes(CLI::App& synth) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<SynthPlanesArguments>();
   CLI::App* sub =
       synth.add_subcommand("planes", "Make a scanned scene with its true planes, labels and mesh");
   sub->add_option("-o", args->out, "the folder for cloud.ply, truth.obj and truth.json")->type_name("DIR");

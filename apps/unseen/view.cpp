@@ -21,7 +21,7 @@ extern char** environ;
 namespace unseen::cli {
 namespace {
 
-struct Arguments {
+struct ViewArguments {
   std::string first, second, page;
   CommonFlags common;
   bool open = false;
@@ -37,7 +37,7 @@ void open_in_browser(const std::string& page) {
     throw InputError(page, "--open", "no program that opens it", "xdg-open; the page itself is written");
 }
 
-int run(Arguments& args) {
+int run(ViewArguments& args) {
   require(args.first, "OUT");
   Session session(args.common);
   Summary summary;
@@ -70,7 +70,7 @@ int run(Arguments& args) {
 }  // namespace
 
 Command add_view(CLI::App& app) {
-  auto args = std::make_shared<Arguments>();
+  auto args = std::make_shared<ViewArguments>();
   CLI::App* sub = app.add_subcommand("view", "Write the page of a result again, or one that shows two side by side");
   sub->add_option("OUT", args->first, "the folder of a result");
   sub->add_option("OTHER", args->second, "the folder of another one, to be shown beside it");
