@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "collision/median.h"
+#include "collision/noise.h"
 #include "collision/shot_problem.h"
 #include "collision/starts.h"
 #include "collision/unknowns.h"
@@ -16,35 +16,6 @@ namespace {
 
 constexpr double kAlike = 3.0;           // ½ χ² by which another solution may be worse and still explains the data alike
 constexpr double kOtherValue = 0.05;     // of restitution, or as a share of the mass ratio: less is no other solution
-constexpr double kLeastOrientation = 0.002;  // rad
-
-/// The noise as the residuals have it: medians, corrected for the unknowns that the data had to pay for. `expected` is the problem as it came.
-void estimate_noise(const Problem& expected, Problem& problem, const State& state) {
-  const StateT<double> s = values_of(problem, state);
-  std::vector<double> pixels, angles;
-  for (const PointObservation& seen : problem.points) {
-    const Vec2 off = problem.camera.project(position_at<double>(problem, s, seen.body, seen.after, seen.time)) - seen.pixel;
-    pixels.insert(pixels.end(), {std::abs(off.x()), std::abs(off.y())});
-  }
-  for (const OrientationObservation& seen : problem.orientations) {
-    const Quat q = orientation_at(problem, state, seen.body, seen.after, seen.time);
-    const Vec3 off = rotation_vector<double>(q * seen.q.conjugate());
-    for (int i = 0; i < 3; ++i) angles.push_back(std::abs(off[i]));
-  }
-  constexpr double kToSigma = 1.4826, kUnknownsOfFlights = 18.0, kUnknownsOfTurning = 14.0;
-  const auto free = [](std::size_t count, double unknowns) { return std::max(4.0, static_cast<double>(count) - unknowns); };
-  const auto sigma = [&](const std::vector<double>& off, double unknowns) {
-    return kToSigma * median(off) * std::sqrt(static_cast<double>(off.size()) / free(off.size(), unknowns));
-  };
-  constexpr double kMostPixels = 3.0, kMostAngle = 8.0;  // times what was expected: more is no noise but a fit that failed
-  problem.pixel_sigma = std::clamp(sigma(pixels, kUnknownsOfFlights), 0.02, kMostPixels * expected.pixel_sigma);
-  if (angles.empty() || !problem.terms.orientation || !problem.scattered) return;
-  // few orientations cannot tell their noise: what was expected counts as so many more
-  constexpr double kExpected = 3.0;
-  const double seen = std::max(kLeastOrientation, sigma(angles, kUnknownsOfTurning)), count = free(angles.size(), kUnknownsOfTurning);
-  problem.orientation_sigma = std::min(kMostAngle * expected.orientation_sigma,
-                                       std::exp((kExpected * std::log(expected.orientation_sigma) + count * std::log(seen)) / (kExpected + count)));
-}
 
 /// A solution with its own noise.
 struct Candidate {
@@ -55,7 +26,7 @@ struct Candidate {
 
 double score_of(const Problem& problem, const Fit& fit) {
   const double pixels = 2.0 * static_cast<double>(problem.points.size()), angles = 3.0 * static_cast<double>(problem.orientations.size());
-  return fit.cost + pixels * std::log(problem.pixel_sigma) + angles * std::log(problem.orientation_sigma);
+  return fit.cost + pixels * log_noise(problem.pixel_sigma, problem.noise_power) + angles * std::log(problem.orientation_sigma);
 }
 
 std::vector<Alternative> alternatives(const std::vector<Candidate>& candidates) {

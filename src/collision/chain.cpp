@@ -26,7 +26,6 @@ constexpr double kFarCost = 9.0;       // σ², of a step that long
 constexpr int kBackFrames = 12;        // that the body may be out of sight in a track, at least
 constexpr double kGapFrames = 4.5;     // frame times between two flights that meet, at most, and
 constexpr double kGapSeconds = 0.4;
-constexpr double kMoverLeast = 0.3, kMoverMost = 4.0;  // of the body's area: something else that moves
 
 double extent(const Arc& arc) {
   Vec2 low = arc.points.front().pixel, high = low;
@@ -135,20 +134,6 @@ std::vector<Candidate> follow(const Candidates& candidates, const std::vector<Ar
   return track;
 }
 
-/// Frames in which something of the body's order of size moves that belongs to no flight.
-int unexplained_frames(const Candidates& candidates, const std::vector<std::vector<Candidate>>& flights, double area) {
-  int count = 0;
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    bool flown = false, mover = false;
-    for (const auto& flight : flights)
-      for (const Candidate& c : flight) flown = flown || c.frame == static_cast<int>(k);
-    for (const Candidate& c : candidates[k])
-      mover = mover || (!c.shadow && (area <= 0.0 || (c.area > kMoverLeast * area && c.area < kMoverMost * area)));
-    if (mover && !flown) ++count;
-  }
-  return count;
-}
-
 void warn_of(const TimeGaps& gaps, const Shot& shot, Context& context) {
   std::string places;
   for (const auto& gap : gaps.gaps) places += fmt::format("{}{}", places.empty() ? "" : ", ", gap.after);
@@ -173,7 +158,7 @@ void correct_times(std::vector<Candidate>& track, double noise, const Shot& shot
 }
 
 /// Flights of a track that are parabolas of the picture, and where they meet.
-Tracks flights_in_picture(const Shot& shot, const Candidates& candidates, std::vector<Candidate> track, int body, double noise, double fps, Context& context) {
+Tracks flights_in_picture(const Shot& shot, std::vector<Candidate> track, int body, double noise, double fps, Context& context) {
   Tracks tracks;
   correct_times(track, noise, shot, context);
   std::optional<ImageGravity> gravity;
@@ -203,7 +188,6 @@ Tracks flights_in_picture(const Shot& shot, const Candidates& candidates, std::v
     tracks.meetings.push_back({joint.u / fps, {static_cast<int>(i)}, {static_cast<int>(i + 1)}});
   }
   tracks.collisions_seen = static_cast<int>(tracks.meetings.size());
-  tracks.unexplained = unexplained_frames(candidates, points, track.empty() ? 0.0 : track[track.size() / 2].area);
   return tracks;
 }
 
@@ -212,13 +196,9 @@ Tracks flights_in_picture(const Shot& shot, const Candidates& candidates, std::v
 Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, int body, double fps, double least_noise, Context& context) {
   const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
   const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
-  if (arcs.empty()) {
-    Tracks none;
-    none.unexplained = unexplained_frames(candidates, {}, 0.0);
-    return none;
-  }
+  if (arcs.empty()) return {};
   const std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
-  Tracks tracks = flights_in_picture(shot, candidates, track, body, noise, fps, context);
+  Tracks tracks = flights_in_picture(shot, track, body, noise, fps, context);
   if (!tracks.meetings.empty() || shot.video.empty()) return tracks;
   return search_return(shot, camera, track, body, fps, noise, context).value_or(tracks);
 }

@@ -24,14 +24,6 @@ constexpr double kLeast = 0.08;      // rad: a smaller tilt moves the restitutio
 constexpr double kOtherValue = 0.01;   // of the restitution
 constexpr double kUnlikely = 13.8;   // χ² of two numbers that chance exceeds once in a thousand
 
-using Wide = ceres::Jet<double, kUnknowns>;
-
-StateT<Wide> wide_state(const Problem& problem, const State& state) {
-  std::array<Wide, kUnknowns> u;
-  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(0.0, i);
-  return unpack<Wide>(problem, state, u.data());
-}
-
 /// Σ^(−1/2) or Σ^(−1) of a covariance without full rank.
 Mat3 power_of(const Mat3& covariance, double exponent) {
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(covariance);
@@ -55,7 +47,7 @@ void doubt_level(Solution& solution) {
   const Problem& problem = solution.problem;
   const Fit& fit = solution.fit;
   if (!problem.level || !problem.friction || !problem.solids[0].is_sphere() || problem.turns(0) || fit.covariance.size() == 0) return;
-  const StateT<Wide> s = wide_state(problem, fit.state);
+  const StateT<Wide> s = wide_values_of(problem, fit.state);
   const Vec3T<Wide> off = unexplained(s);
   const Vec3 lean(off[0].a, off[1].a, off[2].a);
   Eigen::Matrix<double, 3, kUnknowns> slopes;
@@ -109,7 +101,7 @@ void doubt_lever(Solution& solution) {
 
 Vec3 error_by_vertical(const Problem& problem, const Fit& fit) {
   if (problem.gravity == 0.0 || fit.covariance.size() == 0) return Vec3::Zero();
-  const StateT<Wide> s = wide_state(problem, fit.state);
+  const StateT<Wide> s = wide_values_of(problem, fit.state);
   const Wide c = restitution<Wide>(problem, fit.state, s);
   Eigen::Matrix<double, 3, kUnknowns> slopes;
   for (int i = 0; i < 3; ++i) slopes.row(i) = s.down[i].v.transpose();

@@ -73,6 +73,7 @@ struct Problem {
   std::vector<SizeTrend> trends;
   std::vector<OrientationObservation> orientations;
   double pixel_sigma = 1.0;            ///< px
+  double noise_power = 2.0;            ///< centres are off by x with likelihood exp(−|x/α|^power): 2 is the normal distribution, more is flatter
   bool filmed = false;                 ///< centres are centroids of regions: off by kLopsided
   double orientation_sigma = 0.087;    ///< rad
   bool scattered = true;               ///< each orientation was seen on its own, so that their scatter tells their noise

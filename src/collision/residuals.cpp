@@ -16,8 +16,6 @@ namespace {
 constexpr double kPointHuber = 3.0;        // in noise
 constexpr double kOrientationHuber = 2.0;  // in noise
 
-using Wide = ceres::Jet<double, kUnknowns>;
-
 /// A term as a cost function; the state and its derivatives come from the evaluation that is under way.
 template <class Term>
 class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
@@ -74,6 +72,16 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
 
   Term term_;
   const Evaluation& evaluation_;
+};
+
+/// Half of it is the fourth power of the residual.
+class SquareLoss : public ceres::LossFunction {
+ public:
+  void Evaluate(double s, double rho[3]) const override {
+    rho[0] = 2.0 * s * s;
+    rho[1] = 4.0 * s;
+    rho[2] = 4.0;
+  }
 };
 
 class Adder {
@@ -134,7 +142,10 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
   const Terms& terms = problem.terms;
   Adder adder(evaluation, ceres);
   for (const PointObservation& seen : problem.points) {
-    adder.add("points", PointTerm{base, seen}, new ceres::HuberLoss(kPointHuber));
+    if (problem.noise_power == 2.0)
+      adder.add("points", PointTerm{base, seen}, new ceres::HuberLoss(kPointHuber));
+    else
+      for (const int axis : {0, 1}) adder.add("points", FlatPointTerm{base, seen, axis}, new SquareLoss);
     if (terms.size && seen.depth > 0.0) adder.add("size", DepthTerm{base, seen}, new ceres::HuberLoss(1.0));
   }
   if (terms.size)

@@ -39,7 +39,7 @@ struct Evaluation : ceres::EvaluationCallback {
   const State& reference;  ///< the unknowns are steps from it
   std::array<double, kUnknowns> unknowns = {};
   StateT<double> state;
-  StateT<ceres::Jet<double, kUnknowns>> wide;  ///< with derivatives, if they were asked for
+  StateT<Wide> wide;  ///< with derivatives, if they were asked for
   std::vector<TurnedEnd> turned;  ///< to where each orientation of the problem was seen
   bool has_derivatives = false;
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include "collision/noise.h"
 #include "collision/rotation.h"
 #include "collision/unknowns.h"
 
@@ -47,6 +48,21 @@ struct PointTerm : Base {
   }
 };
 
+/// One coordinate of a centre with noise that is flat; its loss is the square of the square.
+struct FlatPointTerm : Base {
+  static constexpr int kParts = kFlightParts, kResiduals = 1;
+  const PointObservation& seen;
+  int axis;
+  template <class T>
+  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  template <class T>
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>& s) const {
+    std::array<T, PointTerm::kResiduals> both;
+    PointTerm{*this, seen}.of_parts(in, both.data(), s);
+    *r = flat_residual(both[axis], problem.noise_power);
+  }
+};
+
 /// Depth from the projected size, Eq. 5.23.
 struct DepthTerm : Base {
   static constexpr int kParts = kFlightParts, kResiduals = 1;
@@ -85,7 +101,7 @@ struct OrientationTerm : Base {
     return {&turn.x(), &turn.y(), &turn.z(), &h.x(), &h.y(), &h.z(), &s.time};
   }
   template <class T>
-  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>& s) const {
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     const Vec3& inertia = problem.solids[seen.body].mass.inertia;
     const Vec3 h(value_of(in[3]), value_of(in[4]), value_of(in[5]));
     QuatT<T> q;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "collision/noise.h"
 #include "collision/residuals.h"
 #include "collision/unknowns.h"
 
@@ -147,14 +148,6 @@ std::map<std::string, double> term_sizes(const Problem& problem, const Fit& fit)
   return sizes;
 }
 
-using Wide = ceres::Jet<double, kUnknowns>;
-
-StateT<Wide> wide_state(const Problem& problem, const State& state) {
-  std::array<Wide, kUnknowns> u;
-  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(0.0, i);
-  return unpack<Wide>(problem, state, u.data());
-}
-
 /// Value and deviation of a function of the unknowns.
 Estimate estimate(const Wide& value, const Eigen::MatrixXd& covariance) {
   Estimate e;
@@ -215,8 +208,10 @@ Fit settle(const Problem& problem, const State& start) {
 }
 
 void add_covariance(const Problem& problem, Fit& fit) {
-  const Problem free = without_bounds(problem);  // a bound that is reached says nothing of the noise
-  Setup setup(problem.restitution ? problem : free, fit.state, fit.touch);
+  Problem normal = problem.restitution ? problem : without_bounds(problem);  // a bound that is reached says nothing of the noise
+  normal.pixel_sigma = equivalent_deviation(problem, fit.state);
+  normal.noise_power = 2.0;
+  Setup setup(normal, fit.state, fit.touch);
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
   options.null_space_rank = -1;
@@ -232,13 +227,13 @@ void add_covariance(const Problem& problem, Fit& fit) {
 }
 
 Estimate restitution_of(const Problem& problem, const Fit& fit) {
-  return estimate(restitution<Wide>(problem, fit.state, wide_state(problem, fit.state)), fit.covariance);
+  return estimate(restitution<Wide>(problem, fit.state, wide_values_of(problem, fit.state)), fit.covariance);
 }
 
-Estimate mass_ratio_of(const Problem& problem, const Fit& fit) { return estimate(wide_state(problem, fit.state).mass_ratio, fit.covariance); }
+Estimate mass_ratio_of(const Problem& problem, const Fit& fit) { return estimate(wide_values_of(problem, fit.state).mass_ratio, fit.covariance); }
 
 Estimate energy_kept_of(const Problem& problem, const Fit& fit) {
-  const StateT<Wide> s = wide_state(problem, fit.state);
+  const StateT<Wide> s = wide_values_of(problem, fit.state);
   return estimate(kinetic_energy<Wide>(problem, s, true) / kinetic_energy<Wide>(problem, s, false), fit.covariance);
 }
 

@@ -39,7 +39,6 @@ struct Tracks {
   };
   std::vector<Meeting> meetings;
   double noise = 1.0;               ///< px, robust σ of the points about their spans' curves
-  int unexplained = 0;              ///< frames with a mover that no span explains
   bool told_apart = false;          ///< by labels or their shapes: two free bodies cannot have been taken for each other
   int collisions_seen = 0;          ///< more than one for two free bodies: the shot has several collisions
 };

@@ -115,39 +115,21 @@ Curve curve_of(const std::vector<Candidate>& points) {
   return sums.fit();
 }
 
-/// Frames with more movers than the flights explain, by anything of a body's order of size.
-int unexplained_frames(const Candidates& candidates, const std::vector<std::vector<Candidate>>& flights, double least_area) {
-  int count = 0;
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
-    int movers = 0, flown = 0;
-    for (const Candidate& c : candidates[k]) movers += !c.shadow && c.area >= least_area;
-    for (const auto& flight : flights)
-      for (const Candidate& c : flight) flown += c.frame == static_cast<int>(k);
-    count += movers > flown;
-  }
-  return count;
-}
-
-void finish(const Candidates& candidates, const std::vector<std::vector<Candidate>>& flights, Tracks& tracks) {
+double noise_of(const std::vector<std::vector<Candidate>>& flights) {
   std::vector<Curve> curves;
-  double area = 1e300;
-  for (const auto& flight : flights) {
-    curves.push_back(curve_of(flight));
-    for (const Candidate& c : flight) area = std::min(area, 0.5 * c.area);
-  }
-  tracks.noise = noise_about(flights, curves);
-  tracks.unexplained = unexplained_frames(candidates, flights, flights.empty() ? 0.0 : area);
+  for (const auto& flight : flights) curves.push_back(curve_of(flight));
+  return noise_about(flights, curves);
 }
 
 /// The longest flights of the two things that fly longest; no meeting.
-Tracks without_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, double fps) {
+Tracks without_collision(const Shot& shot, const std::vector<Arc>& arcs, double fps) {
   Tracks tracks;
   std::vector<std::vector<Candidate>> flights;
   for (const Arc& arc : arcs)
     if (flights.size() < 2) flights.push_back(arc.points);
   if (flights.size() == 2 && swapped(shot, flights[0], flights[1])) std::swap(flights[0], flights[1]);
   for (std::size_t i = 0; i < flights.size(); ++i) add_span(tracks, static_cast<int>(i), flights[i], fps);
-  finish(candidates, flights, tracks);
+  tracks.noise = noise_of(flights);
   return tracks;
 }
 
@@ -164,7 +146,7 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
   }
   Tracks tracks;
   for (std::size_t i = 0; i < 4; ++i) add_span(tracks, static_cast<int>(i % 2), flights[i], fps);
-  finish(candidates, flights, tracks);
+  tracks.noise = noise_of(flights);
   const auto link = [&](std::size_t o) { return link_of({flights[o], {}, 0}, {flights[o + 2], {}, 0}, noise); };
   double u = common_time(link(0), link(1), noise);
   if (!(std::abs(u - best.u) < kSettled)) u = best.u;
@@ -180,7 +162,7 @@ Tracks find_pair(const Shot& shot, const ShotCamera& camera, const Candidates& c
   std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
   const std::vector<Collision> found = find_collisions(shot, camera, arcs, noise, fps);
-  if (found.empty()) return without_collision(shot, candidates, arcs, fps);
+  if (found.empty()) return without_collision(shot, arcs, fps);
   return with_collision(shot, candidates, arcs, found, noise, fps);
 }
 

@@ -53,6 +53,12 @@ StateT<double> values_of(const Problem& problem, const State& state) {
   return unpack<double>(problem, state, zero.data());
 }
 
+StateT<Wide> wide_values_of(const Problem& problem, const State& state) {
+  std::array<Wide, kUnknowns> u;
+  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(0.0, i);
+  return unpack<Wide>(problem, state, u.data());
+}
+
 Quat orientation_at(const Problem& problem, const State& state, int o, bool after, double time) {
   if (o == 1 && problem.fixed) return state.q[1];
   const StateT<double> s = values_of(problem, state);

@@ -129,6 +129,12 @@ Quat orientation_at(const Problem& problem, const State& state, int o, bool afte
 /// A state with its functions of the unknowns filled in.
 StateT<double> values_of(const Problem& problem, const State& state);
 
+/// A number with its derivatives along all unknowns.
+using Wide = ceres::Jet<double, kUnknowns>;
+
+/// The same with derivatives.
+StateT<Wide> wide_values_of(const Problem& problem, const State& state);
+
 /// The coefficient of restitution of a state, within its bounds 0 and 1.
 inline double bounded_restitution(const Problem& problem, const State& state) {
   return std::clamp(restitution<double>(problem, state, values_of(problem, state)), 0.0, 1.0);
