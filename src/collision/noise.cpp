@@ -28,16 +28,6 @@ double robust_deviation(const std::vector<double>& off, double unknowns) {
   return kToSigma * median(sizes(off)) * std::sqrt(static_cast<double>(off.size()) / degrees_of_freedom(off.size(), unknowns));
 }
 
-/// x and y of all centres, one flight after the other.
-std::vector<double> pixels_off(const Problem& problem, const State& state) {
-  const StateT<double> s = values_of(problem, state);
-  std::vector<double> off;
-  for (const int axis : {0, 1})
-    for (const PointObservation& seen : problem.points)
-      off.push_back((problem.camera.project(position_at<double>(problem, s, seen.body, seen.after, seen.time)) - seen.pixel)[axis]);
-  return off;
-}
-
 /// Of |x/α|^power with the likeliest α.
 double likeliest_width(const std::vector<double>& off, double power) {
   double sum = 0.0;
@@ -72,21 +62,26 @@ double log_noise(double sigma, double power) {
   return std::log(sigma * width_of_power(power) * std::tgamma(1.0 + 1.0 / power) / (width_of_power(2.0) * std::tgamma(1.5)));
 }
 
-double equivalent_deviation(const Problem& problem, const State& state) {
+std::vector<double> pixels_off(const Problem& problem, const State& state) {
+  const StateT<double> s = values_of(problem, state);
+  std::vector<double> off;
+  for (const int axis : {0, 1})
+    for (const PointObservation& seen : problem.points)
+      off.push_back((problem.camera.project(position_at<double>(problem, s, seen.body, seen.after, seen.time)) - seen.pixel)[axis]);
+  return off;
+}
+
+double equivalent_deviation(const std::vector<double>& off, double power) {
   constexpr double kMostLeverage = 0.9;
-  const double power = problem.noise_power, width = problem.pixel_sigma * width_of_power(power);
-  if (power == 2.0) return problem.pixel_sigma;
-  const std::vector<double> off = pixels_off(problem, state);
-  const double count = static_cast<double>(off.size());
-  std::vector<double> weights;  // second derivatives of |x/α|^power, but for a factor: what is off most counts most
-  for (const double x : off) weights.push_back(std::pow(std::abs(x) / width, power - 2.0));
-  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<double> weights;  // second derivatives of |x|^power, but for a factor: what is off most counts most
+  for (const double x : off) weights.push_back(std::pow(std::abs(x), power - 2.0));
+  const double count = static_cast<double>(off.size()), sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   double pulls = 0.0;  // squared first derivatives, but for the same factor
   for (std::size_t i = 0; i < off.size(); ++i) {
     const double leverage = std::min(kMostLeverage, kUnknownsOfFlights * weights[i] / sum);
-    pulls += std::pow(weights[i] * off[i] / width, 2) / (1.0 - leverage);
+    pulls += std::pow(weights[i] * off[i], 2) / (1.0 - leverage);
   }
-  return width * std::sqrt(count * pulls) / ((power - 1.0) * sum);
+  return std::sqrt(count * pulls) / ((power - 1.0) * sum);
 }
 
 void estimate_noise(const Problem& expected, Problem& problem, const State& state) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "collision/problem.h"
 #include "collision/scalar.h"
@@ -24,10 +25,13 @@ T flat_residual(const T& x, double power) {
 /// −log likelihood of a value with this noise, but for |x/α|^power, against that of a normal distribution with deviation 1.
 double log_noise(double sigma, double power);
 
-/// Deviation of the normal noise that would leave as much doubt as the centres' noise does (asymptotic variance of an M-estimator, Huber 1981, and
-/// for what the solution follows its residuals by their leverage, HC2 of MacKinnon and White 1985); px. It is that of the residuals themselves, not
-/// of the power that stands for their shape.
-double equivalent_deviation(const Problem& problem, const State& state);
+/// How far the centres that were seen are from where a solution has them: x of all of them, then y; px.
+std::vector<double> pixels_off(const Problem& problem, const State& state);
+
+/// Deviation of the normal noise that would leave as much doubt about flights as noise |x/α|^power with these residuals does (asymptotic variance of
+/// an M-estimator, Huber 1981, and for what the solution follows its residuals by their leverage, HC2 of MacKinnon and White 1985); their unit. It is
+/// that of the residuals themselves, not of the power that stands for their shape.
+double equivalent_deviation(const std::vector<double>& off, double power);
 
 /// The noise as the residuals of a solution have it, corrected for the unknowns that the data had to pay for. `expected` is the problem as it
 /// came. Sightings that are off alike often but never by much, as by a uniform distribution or by rounding to pixels, say far more than normal

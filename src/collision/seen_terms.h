@@ -34,6 +34,13 @@ std::array<const T*, kFlightParts> flight_parts(const StateT<T>& s, int body, bo
   return {&p.x(), &p.y(), &p.z(), &v.x(), &v.y(), &v.z(), &s.down.x(), &s.down.y(), &s.down.z(), &s.time};
 }
 
+/// How far one coordinate of a centre that is seen is from that of the body's place `p`; px over noise.
+template <class T>
+T off_along(int axis, const Problem& problem, const PointObservation& seen, const Vec3T<T>& p) {
+  const Camera& camera = problem.camera;
+  return (p[axis] / p.z() * (axis == 0 ? camera.fx : camera.fy) + (axis == 0 ? camera.cx : camera.cy) - seen.pixel[axis]) / problem.pixel_sigma;
+}
+
 /// Reprojection of a centre, Eq. 5.22; px over noise.
 struct PointTerm : Base {
   static constexpr int kParts = kFlightParts, kResiduals = 2;
@@ -43,8 +50,7 @@ struct PointTerm : Base {
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     const Vec3T<T> p = flown<T>(problem, seen.body, seen.time, in);
-    r[0] = (p.x() / p.z() * problem.camera.fx + problem.camera.cx - seen.pixel.x()) / problem.pixel_sigma;
-    r[1] = (p.y() / p.z() * problem.camera.fy + problem.camera.cy - seen.pixel.y()) / problem.pixel_sigma;
+    for (const int axis : {0, 1}) r[axis] = off_along<T>(axis, problem, seen, p);
   }
 };
 
@@ -56,10 +62,9 @@ struct FlatPointTerm : Base {
   template <class T>
   auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
   template <class T>
-  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>& s) const {
-    std::array<T, PointTerm::kResiduals> both;
-    PointTerm{*this, seen}.of_parts(in, both.data(), s);
-    *r = flat_residual(both[axis], problem.noise_power);
+  void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
+    const T off = off_along<T>(axis, problem, seen, flown<T>(problem, seen.body, seen.time, in));
+    *r = flat_residual(off, problem.noise_power);
   }
 };
 

@@ -209,7 +209,7 @@ Fit settle(const Problem& problem, const State& start) {
 
 void add_covariance(const Problem& problem, Fit& fit) {
   Problem normal = problem.restitution ? problem : without_bounds(problem);  // a bound that is reached says nothing of the noise
-  normal.pixel_sigma = equivalent_deviation(problem, fit.state);
+  if (problem.noise_power > 2.0) normal.pixel_sigma = equivalent_deviation(pixels_off(problem, fit.state), problem.noise_power);
   normal.noise_power = 2.0;
   Setup setup(normal, fit.state, fit.touch);
   ceres::Covariance::Options options;

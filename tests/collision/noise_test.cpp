@@ -43,6 +43,15 @@ TEST(Noise, FourthPowerOfAFlatResidualIsThePower) {
     }
 }
 
+TEST(Noise, DeviationOfAPowerIsThatOfItsEstimator) {
+  std::vector<double> uniform;
+  for (int i = 0; i < 100000; ++i) uniform.push_back((i + 0.5) / 50000.0 - 1.0);
+  // E ψ² = 1/(2p−1) and E ψ' = 1 for ψ = |x|^(p−1), |x| < 1
+  for (const double power : {2.0, 4.0, 8.0}) EXPECT_NEAR(equivalent_deviation(uniform, power), 1.0 / std::sqrt(2.0 * power - 1.0), 1e-3) << power;
+  // all alike: each has the leverage 18/36
+  EXPECT_NEAR(equivalent_deviation(std::vector<double>(36, -0.7), 4.0), 0.7 / (3.0 * std::sqrt(0.5)), 1e-12);
+}
+
 double restitution_at(const Problem& problem, const State& state) { return restitution<double>(problem, state, values_of(problem, state)); }
 
 using Noise = std::function<double(int)>;  // px, of a frame
