@@ -35,6 +35,7 @@ struct Model {
   std::vector<Constraint> constraints;   ///< independent of each other, by rising `a`
   std::vector<Surface> surfaces;
   std::vector<Part> parts;
+  bool local_fits = false;  ///< every patch keeps its own fit, related to no other
 
   Vec3 normal(const Surface& s) const { return frames[s.frame].direction(locals[s.local]); }
   Plane plane(const Part& p) const { return {normal(surfaces[p.surface]), surfaces[p.surface].offset}; }
@@ -53,8 +54,15 @@ void refit(Model& model);
 /// must not carry away a large one that knows better.
 void refit_held(Model& model, double tolerance, const Space& space);
 
+/// Adds the relations between frames that show only in the surfaces as refitted, where these do not differ significantly from them by their
+/// noise; true if there are any.
+bool relate_again(Model& model, const AngleSet& angles, const Space& space);
+
 /// Replaces a surface's moments, e.g. by those of the points assigned to it; its variances are scaled along.
 void update_support(Surface& surface, const Moments& moments, const Space& space);
+
+/// Variances (rad²) of a surface's tilts along u and v in refits.
+std::pair<double, double> tilt_variances(const Patch& support);
 
 /// A surface's normal as a residual: how far it turns from its fit along one of the fit's axes, and how precise
 /// that is. Turning its frame by w changes `value` by w·jacobian.

@@ -113,6 +113,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
   context.check();
   model.frames = std::move(r.frames);
   model.constraints = std::move(r.constraints);
+  model.local_fits = selection.local_fits;
 
   std::vector<Vec3> normals;
   for (std::size_t j = 0; j < patches.patches.size(); ++j)

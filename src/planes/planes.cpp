@@ -189,6 +189,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     }
     for (std::size_t s = 0; s < on_surface.size(); ++s) update_support(model.surfaces[s], on_surface[s], space);
     refit_held(model, tolerance, space);
+    if (relate_again(model, angles, space)) refit_held(model, tolerance, space);
     update_planes(reach, model);
   }
   {

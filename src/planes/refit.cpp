@@ -20,6 +20,11 @@ constexpr double kOdd = 2.0;        // standard deviations: tilts beyond it coun
 
 }  // namespace
 
+std::pair<double, double> tilt_variances(const Patch& support) {
+  const auto known = [&](double variance, double spread) { return kFloor * kFloor + tilt_noise(support.moments, support.fit, variance, spread); };
+  return {known(support.variance_u, support.fit.spread_u), support.variance_v > 0.0 ? known(support.variance_v, support.fit.spread_v) : kFloor * kFloor};
+}
+
 std::array<TiltResidual, 2> tilt_residuals(const PlaneFit& fit, const Vec3& normal, double variance_u,
                                            double variance_v) {
   // Turning by w moves n by w × n, so its component along u by w·(n × u).
@@ -55,9 +60,8 @@ Turns turns_of(const Model& model) {
           std::vector<Vec3>(model.frames.size(), Vec3::Zero())};
   for (const Surface& surface : model.surfaces) {
     const Patch& s = surface.support;
-    const auto variance = [&](double variance, double spread) { return tilt_noise(s.moments, s.fit, variance, spread) + kFloor * kFloor; };
-    for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), variance(s.variance_u, s.fit.spread_u),
-                                                s.variance_v > 0.0 ? variance(s.variance_v, s.fit.spread_v) : kFloor * kFloor)) {
+    const auto [variance_u, variance_v] = tilt_variances(s);
+    for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), variance_u, variance_v)) {
       const double weight = r.weight / std::max(1.0, std::abs(r.value) * std::sqrt(r.weight) / kOdd);
       t.information[surface.frame] += weight * r.jacobian * r.jacobian.transpose();
       t.gradient[surface.frame] += weight * r.value * r.jacobian;

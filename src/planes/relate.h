@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "planes/arrange.h"
+
+namespace unseen::planes {
+
+/// χ² beyond which constraints are refused: three standard errors for one, two and three degrees of freedom.
+constexpr double kSignificant[] = {0.0, 9.0, 11.8, 14.2};
+
+/// A patch (index) in a group, and the direction (index of a local one) that it has there.
+struct Member {
+  int patch, local;
+};
+
+/// An orientation frame on its way to a node of the model, with what has its directions.
+struct Group {
+  OrientationFrame frame;
+  std::vector<Member> members;
+  double weight = 0;  ///< m², area of the members
+};
+
+/// What is known of all patches.
+struct Evidence {
+  const std::vector<Patch>& patches;
+  const std::vector<Vec3>& locals;
+  const AngleSet& angles;
+  const Space& space;
+
+  const Patch& patch(const Member& m) const { return patches[m.patch]; }
+};
+
+/// Of all members against their directions.
+double chi2(const Evidence& known, const OrientationFrame& frame, const std::vector<Member>& members);
+
+/// The frame turned to suit its members best while constraints against earlier groups hold.
+OrientationFrame fit_constrained(const Evidence& known, OrientationFrame frame, const std::vector<Member>& members,
+                                 const std::vector<Constraint>& constraints, const std::vector<Group>& earlier);
+
+/// Adds each relation of a group to an earlier one, which its members do not contradict significantly and which is no chance, to those
+/// it has; its frame is turned along.
+void relate(const Evidence& known, Group& group, const std::vector<Group>& earlier, std::vector<Constraint>& constraints);
+
+}  // namespace unseen::planes
