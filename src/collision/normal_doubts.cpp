@@ -65,7 +65,7 @@ void doubt_level(Solution& solution) {
 void doubt_normal(Solution& solution) {
   const Problem& problem = solution.problem;
   const State& state = solution.fit.state;
-  if (!problem.friction || !problem.is_of_centres()) return;
+  if (!problem.friction || problem.fixed_normal || !problem.is_of_centres()) return;
   const StateT<double> s = values_of(problem, state);
   const auto meeting = [&](bool after) -> Vec3 { return contact_velocity<double>(problem, s, 0, after) - contact_velocity<double>(problem, s, 1, after); };
   const Vec3 before = meeting(false), after = meeting(true), along = (after - before).normalized();

@@ -70,6 +70,7 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
     std::vector<Member> members;
     if (const int g = equivalent_group(p, group, nodes, members); g >= 0) {
       nodes[g].members.insert(nodes[g].members.end(), members.begin(), members.end());
+      nodes[g].weight += group.weight;
       continue;
     }
     std::vector<Constraint> rows;

@@ -101,6 +101,20 @@ TEST(HitsOffTheCentre, OfBodiesKnownByTheirSizeAreCounted) {
   EXPECT_GE(held, 3);
 }
 
+TEST(GivenNormal, TellsFrictionFromLostBounceWhateverTheShape) {
+  Shot shot = tracks("box-floor", 1).shot;
+  shot.orientations.clear();
+  shot.bodies[0].size = shot.bodies[0].box.maxCoeff();
+  shot.bodies[0].shape = Shape::size;
+  const auto by_friction = [](const Alternative& a) { return a.what.find("with a friction of") != std::string::npos; };
+  for (const bool given : {true, false}) {
+    if (!given) shot.bodies[1].normal.reset(), shot.down.reset();
+    const Reconstruction r = solve(shot);
+    ASSERT_EQ(r.impacts.size(), 1u) << given;
+    EXPECT_EQ(std::any_of(r.ambiguous.begin(), r.ambiguous.end(), by_friction), !given) << given;
+  }
+}
+
 TEST(Labels, WithoutThemAndWithoutSizesTheMassRatioIsAmbiguous) {
   const SynthShot synth = tracks("balls", 2);
   Shot shot = synth.shot;
