@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +18,10 @@ constexpr double kAtEnd = 0.15;   // of the scene's height, from its lowest or h
 constexpr double kSlab = 0.25;    // of the room's height: how thick what lies between two storeys is, at most
 constexpr double kOverlap = 0.5;  // of the smaller one's extent, for one to lie above the other
 constexpr double kWall = 0.5;     // of the room's height
+constexpr double kNarrow = 0.1;   // of the room's height: what is narrower in the mean is a post, or a seam
+constexpr double kPlumb = 0.5 * kPi / 180.0;  // what of a wall's lean speaks for no other vertical
+constexpr double kSpeak = 0.5;    // of the most area of walls that speak for one
+constexpr std::size_t kMostUps = 20;
 
 /// What a plane's outline reaches, along two level axes and upward.
 struct Bounds {
@@ -25,15 +30,49 @@ struct Bounds {
   double area() const { return (high.x() - low.x()) * (high.y() - low.y()); }
 };
 
-/// The direction nearest to +z that carries the most area within 15° of it, else +z itself.
+/// What speaks for a direction as the vertical, m²: walls along it that are turned against each other, and level planes.
+struct Votes {
+  double plumb = 0, level = 0;
+};
+
+Votes votes_for(const Vec3& up, const Arrangement& result) {
+  const Vec3 u = any_orthogonal(up), v = up.cross(u);
+  Eigen::Matrix2d walls = Eigen::Matrix2d::Zero();
+  Votes votes;
+  for (const ArrangedPlane& p : result.planes) {
+    const Vec3& n = p.plane.normal;
+    const Eigen::Vector2d across(n.dot(u), n.dot(v));
+    if (line_angle(n, up) > kPi / 2 - kPlumb) walls += p.area * across * across.transpose();
+    if (line_angle(n, up) < kLevel) votes.level += p.area;
+  }
+  votes.plumb = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(walls, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return votes;
+}
+
+/// The direction of a plane within 15° of +z, or +z itself, that walls speak for; between those that walls do not part the one with most level area.
+/// Ground that falls has two walls of each house along its normal, but not those across.
 Vec3 up_of(const Arrangement& result) {
   std::map<int, double> area;
   for (const ArrangedPlane& p : result.planes)
     if (line_angle(p.plane.normal, Vec3::UnitZ()) < kPi / 12) area[p.direction] += p.area;
-  if (area.empty()) return Vec3::UnitZ();
-  const auto less = [](const auto& a, const auto& b) { return a.second < b.second; };
-  const Vec3& n = result.directions[std::max_element(area.begin(), area.end(), less)->first].normal;
-  return n.z() < 0 ? Vec3(-n) : n;
+  std::vector<std::pair<double, Vec3>> candidates;
+  for (const auto& [direction, a] : area) {
+    const Vec3& n = result.directions[direction].normal;
+    candidates.emplace_back(a, n.z() < 0 ? Vec3(-n) : n);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (candidates.size() > kMostUps) candidates.resize(kMostUps);
+  candidates.emplace_back(0.0, Vec3::UnitZ());
+  std::vector<Votes> votes;
+  double plumb = 0;
+  for (const auto& [a, up] : candidates) {
+    votes.push_back(votes_for(up, result));
+    plumb = std::max(plumb, votes.back().plumb);
+  }
+  std::size_t best = candidates.size();
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (votes[i].plumb >= kSpeak * plumb && (best == candidates.size() || votes[i].level > (1.0 + 1e-9) * votes[best].level)) best = i;
+  return candidates[best].second;
 }
 
 Bounds bounds_of(const ArrangedPlane& p, const Mat3& axes) {
@@ -97,8 +136,8 @@ void tag_planes(Arrangement& result) {
   std::vector<double> rooms;  // heights
   for (const std::size_t i : levels) {
     const Gaps gaps = gaps_at(i, levels, bounds);
-    const double span = std::max(high - low, 1e-300), height = bounds[i].height();
-    result.planes[i].tag = tag_of_level(gaps, (height - low) / span, (high - height) / span);
+    const double span = std::max(high - low, 1e-300);
+    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, (high - bounds[i].high.z()) / span);
     if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
   }
   std::sort(rooms.begin(), rooms.end());
@@ -109,7 +148,10 @@ void tag_planes(Arrangement& result) {
     const double angle = line_angle(p.plane.normal, up);
     if (angle < kLevel) p.tag = "horizontal";
     else if (angle < kPi / 2 - kLevel) p.tag = "sloped";
-    else p.tag = bounds[i].high.z() - bounds[i].low.z() > kWall * room ? "wall" : "vertical";
+    else {
+      const double tall = bounds[i].high.z() - bounds[i].low.z();
+      p.tag = tall > kWall * room && p.area > kNarrow * room * tall ? "wall" : "vertical";
+    }
   }
 }
 

@@ -64,6 +64,39 @@ TEST(Tags, AFloorMayFallALittleAndASlopeDoesNot) {
   EXPECT_EQ(tags(ramp).back(), "sloped");
 }
 
+/// A house, 10 × 8 m, on ground that falls by 3°, with a roof of one slope of 6°.
+TEST(Tags, WallsSayWhatIsPlumbNotTheGroundNorTheRoof) {
+  const double fall = std::tan(3 * kPi / 180.0), pitch = std::tan(6 * kPi / 180.0);
+  Arrangement all;
+  add(all, {-20, -20, -20 * fall}, Vec3(50, 0, 0), Vec3(0, 50, 50 * fall));
+  add(all, {0, 0, 3}, Vec3(10, 0, 0), Vec3(0, 8, 8 * pitch));
+  for (const double y : {0.0, 8.0}) add(all, {0, y, y * fall}, Vec3(10, 0, 0), Vec3(0, 0, 3));
+  for (const double x : {0.0, 10.0}) add(all, {x, 0, 0}, Vec3(0, 8, 0), Vec3(0, 0, 3));
+  add(all, {0, 0, 0}, Vec3(0.05, 0.05, 0), Vec3(0, 0, 3));
+  EXPECT_EQ(tags(all), (std::vector<std::string>{"sloped", "sloped", "wall", "wall", "wall", "wall", "vertical"}));
+  // all of it tilted by 5°, as by a scanner that was not levelled
+  Arrangement room;
+  add_storey(room, 0.0);
+  const Mat3 tilt = Eigen::AngleAxisd(5 * kPi / 180.0, Vec3(1, 2, 0).normalized()).toRotationMatrix();
+  for (ArrangedPlane& p : room.planes) {
+    p.plane.normal = tilt * p.plane.normal;
+    room.directions[p.direction].normal = p.plane.normal;
+    for (Vec3& corner : p.polygon.front()) corner = tilt * corner;
+  }
+  EXPECT_EQ(tags(room), kStorey);
+}
+
+TEST(Tags, OfARoadWithACrownAndOfALonePlane) {
+  const double fall = std::tan(1.2 * kPi / 180.0);
+  Arrangement road;
+  add(road, {0, 0, 0}, Vec3(40, 0, 0), Vec3(0, 3, 3 * fall));
+  add(road, {0, 6, 0}, Vec3(40, 0, 0), Vec3(0, -3, 3 * fall));
+  EXPECT_EQ(tags(road), (std::vector<std::string>{"floor", "floor"}));
+  Arrangement ground;
+  add(ground, {0, 0, 0}, Vec3(40, 0, 0.1), Vec3(0, 30, 0));
+  EXPECT_EQ(tags(ground), std::vector<std::string>{"floor"});
+}
+
 TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
   Arrangement all;
   for (int i = 0; i < 12; ++i) add(all, {0.28 * i, 0, 0.17 * i}, Vec3(0.3, 0, 0), Vec3(0, 1, 0));
