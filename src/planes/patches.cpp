@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kSystematicTilt = 0.5 * kPi / 180.0;  // rad: registration, calibration, walls out of plumb
 constexpr double kLargestShift = 0.15;  // of the tolerance, of points one standard deviation from the centre
-constexpr double kToleranceShare = 0.03;  // of the tolerance: rims and clutter pull a patch's edge by as much
+constexpr double kToleranceShare = 0.03;  // of the tolerance: rims and clutter pull a patch's edge by as much,
+constexpr double kNoiseShare = 0.3;       // but by no more of its noise, or they would show in it
 
 /// Variance (rad²) of the tilt that a least-squares plane has along `axis`. Residuals are summed by blocks of a
 /// grid over the patch, so that noise that is correlated over up to a block's size counts as what it is
@@ -156,7 +157,8 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u, least_noise);
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v, least_noise);
   const auto systematic = [&](double width) {
-    const double tilt = kSystematicTilt * kSystematicTilt + std::pow(kToleranceShare * grid.tolerance / width, 2);
+    const double clutter = std::min(kToleranceShare * grid.tolerance, kNoiseShare * std::max(fit.rms, 2.0 * least_noise));
+    const double tilt = kSystematicTilt * kSystematicTilt + std::pow(clutter / width, 2);
     // No doubt excuses a tilt that carries the patch's points out of the plane's tolerance.
     return std::min(tilt, std::pow(kLargestShift * grid.tolerance / width, 2));
   };

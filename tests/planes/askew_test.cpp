@@ -57,6 +57,25 @@ std::vector<double> errors_of(const Boxes& boxes, const test::Run& r) {
   return errors;
 }
 
+// Two houses as an aerial scan of 2 points/m² sees them: the scale is wider than a third of a roof, and still roofs of 30° and 35° are not parallel.
+TEST(Askew, RoofsOfAnAerialScanKeepTheirPitch) {
+  Boxes roofs;
+  Random random(3);
+  const double spacing = 0.7, noise = 0.02;
+  for (const double pitch : {30.0, 35.0})
+    for (const int side : {-1, 1}) {
+      const Vec3 ridge(12, 0, 0), slope(0, -4.0 * side, -4.0 * std::tan(radians(pitch)));
+      roofs.first.push_back(roofs.cloud.size());
+      roofs.normal.push_back(ridge.cross(slope).normalized());
+      test::add_rectangle(roofs.cloud, {pitch == 30.0 ? -16.0 : 4.0, 0, 7}, ridge, slope, spacing, noise, random);
+    }
+  roofs.first.push_back(roofs.cloud.size());
+  for (const double y : {-20.0, 4.0}) test::add_rectangle(roofs.cloud, {-30, y, 0}, {60, 0, 0}, {0, 16, 0}, spacing, noise, random);
+  const test::Run r = test::run(roofs.cloud, Options());
+  EXPECT_GT(r.result.scale, 0.8);
+  EXPECT_LT(errors_of(roofs, r).back(), 0.5);
+}
+
 // A street scanned thinly but precisely: the spacing makes the scale coarse, and still facades that stand 2° apart are two.
 TEST(Askew, FacadesOfAThinScanAreNotOne) {
   PointCloud cloud;
