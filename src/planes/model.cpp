@@ -103,6 +103,14 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
   });
 }
 
+/// Sets patches free that their frame would turn out of their own points: joined with others, they would hide it.
+void hold_patches(const Patches& patches, double tolerance, const Space& space, Model& model, std::vector<int>& frame, std::vector<int>& local) {
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) model.surfaces.push_back({frame[j], local[j], patches.patches[j], 0.0});
+  refit_held(model, tolerance, space);
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) frame[j] = model.surfaces[j].frame, local[j] = model.surfaces[j].local;
+  model.surfaces.clear();
+}
+
 }  // namespace
 
 Model build_model(const Selection& selection, const Patches& patches, const VoxelGrid& grid, const Cells& cells,
@@ -115,6 +123,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
   model.constraints = std::move(r.constraints);
   model.local_fits = selection.local_fits;
 
+  if (!space.is_2d() && !model.local_fits) hold_patches(patches, grid.tolerance, space, model, r.frame_of_patch, r.local_of_patch);
   std::vector<Vec3> normals;
   for (std::size_t j = 0; j < patches.patches.size(); ++j)
     normals.push_back(model.frames[r.frame_of_patch[j]].direction(model.locals[r.local_of_patch[j]]));
