@@ -7,70 +7,15 @@
 #include <numeric>
 #include <set>
 
-#include "planes/patches.h"
+#include "planes/cuts.h"
 
 namespace unseen::planes {
 namespace {
 
-constexpr double kSplitGain = 0.6;       // a split must leave less than this share of the squared error
-constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature, unless
-constexpr double kShallow = 0.02, kShallowGain = 0.3;  // they are above this, rad, and leave less than this share,
-constexpr std::size_t kShallowCells = 100;  // of so many voxels or more
 constexpr double kMergeLoss = 1.2;       // a merge may raise either part's rms by this factor
 constexpr std::size_t kSplitCells = 12;  // smaller regions are left alone
 constexpr double kRimReach = 1.3;        // of the local reach: how near a larger region must be to explain one
 constexpr double kRimShare = 0.9;        // of a region's points that must be explained
-
-double squared_error(const Moments& m, const Space& space) {
-  const PlaneFit fit = fit_plane(m, space);
-  return fit.rms * fit.rms * m.count;
-}
-
-/// The straight cut through a region that leaves the least squared error; empty if none is clearly better.
-std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, const Space& space,
-                                                       const std::vector<int>& region) {
-  const Moments whole = sum_of(grid, region);
-  const PlaneFit fit = fit_plane(whole, space);
-  const double shallow = region.size() < kShallowCells ? 0.0 : kShallowGain * squared_error(whole, space);
-  double best = kSplitGain * squared_error(whole, space);
-  std::pair<std::vector<int>, std::vector<int>> parts;
-  const int directions = space.is_2d() ? 1 : 8;
-  std::vector<double> along(region.size());
-  for (int d = 0; d < directions; ++d) {
-    const double angle = kPi * d / directions;
-    const Vec3 axis = std::cos(angle) * fit.u + std::sin(angle) * fit.v;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t i = 0; i < region.size(); ++i) {
-      along[i] = axis.dot(grid.moments[region[i]].mean);
-      low = std::min(low, along[i]);
-      high = std::max(high, along[i]);
-    }
-    constexpr int kCuts = 12;
-    std::vector<Moments> slice(kCuts);  // sums between cuts at equal steps of the coordinate
-    const double step = (high - low) / kCuts;
-    if (!(step > 0)) continue;
-    const auto slice_of = [&](double x) { return std::min(kCuts - 1, static_cast<int>((x - low) / step)); };
-    for (std::size_t i = 0; i < region.size(); ++i) slice[slice_of(along[i])] += grid.moments[region[i]];
-    std::vector<Moments> above(kCuts + 1);
-    for (int c = kCuts - 1; c >= 0; --c) above[c] = above[c + 1] + slice[c];
-    Moments below;
-    for (int c = 1; c < kCuts; ++c) {
-      below += slice[c - 1];
-      const double least = space.is_2d() ? 5 : 10;
-      if (below.count < least || above[c].count < least) continue;
-      const PlaneFit a = fit_plane(below, space), b = fit_plane(above[c], space);
-      const double error = a.rms * a.rms * below.count + b.rms * b.rms * above[c].count;
-      if (error >= best) continue;
-      const double hinge = line_angle(a.normal, b.normal);
-      if (hinge < kSplitAngle && (hinge < kShallow || error > shallow)) continue;
-      best = error;
-      parts = {};
-      for (std::size_t i = 0; i < region.size(); ++i)
-        (slice_of(along[i]) < c ? parts.first : parts.second).push_back(region[i]);
-    }
-  }
-  return parts;
-}
 
 struct Region {
   std::vector<int> cells;

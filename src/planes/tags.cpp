@@ -18,6 +18,7 @@ constexpr double kAtEnd = 0.15;   // of the scene's height, from its lowest or h
 constexpr double kSlab = 0.25;    // of the room's height: how thick what lies between two storeys is, at most
 constexpr double kOverlap = 0.5;  // of the smaller one's extent, for one to lie above the other
 constexpr double kWall = 0.5;     // of the room's height
+constexpr double kRoomy = 0.04;   // of the largest level plane's width: where all is lower, there is no ceiling
 constexpr double kNarrow = 0.1;   // of the room's height: what is narrower in the mean is a post, or a seam
 constexpr double kPlumb = 0.5 * kPi / 180.0;  // what of a wall's lean speaks for no other vertical
 constexpr double kSpeak = 0.5;    // of the most area of walls that speak for one
@@ -137,7 +138,8 @@ void tag_planes(Arrangement& result) {
   for (const std::size_t i : levels) {
     const Gaps gaps = gaps_at(i, levels, bounds);
     const double span = std::max(high - low, 1e-300);
-    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, (high - bounds[i].high.z()) / span);
+    const bool roomy = span > kRoomy * std::sqrt(largest);
+    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere);
     if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
   }
   std::sort(rooms.begin(), rooms.end());

@@ -76,6 +76,44 @@ TEST(Askew, RoofsOfAnAerialScanKeepTheirPitch) {
   EXPECT_LT(errors_of(roofs, r).back(), 0.5);
 }
 
+// Five facades along a zigzag, by 2° in turn: no single cut explains them.
+TEST(Askew, FacadesAlongAZigzagKeepTheirTurns) {
+  Boxes facades;
+  Random random(4);
+  const double spacing = 0.18, noise = 0.006;
+  Vec3 corner = Vec3::Zero();
+  for (int i = 0; i < 5; ++i) {
+    const Vec3 along = 12.0 * Vec3(std::cos(radians(2.0 * (i % 2))), std::sin(radians(2.0 * (i % 2))), 0);
+    facades.first.push_back(facades.cloud.size());
+    facades.normal.push_back(along.cross(Vec3::UnitZ()).normalized());
+    test::add_rectangle(facades.cloud, corner, along, {0, 0, 10}, spacing, noise, random);
+    corner += along;
+  }
+  facades.first.push_back(facades.cloud.size());
+  test::add_rectangle(facades.cloud, {0, -8, 0}, {60, 0, 0}, {0, 8, 0}, spacing, noise, random);
+  EXPECT_LT(errors_of(facades, test::run(facades.cloud, Options())).back(), 0.1);
+}
+
+// A road that falls by 2 % on both sides, between pavements that are 12 cm higher.
+TEST(Askew, ARoadBetweenPavementsKeepsItsCrown) {
+  Boxes road;
+  Random random(5);
+  const double spacing = 0.07, noise = 0.005;
+  for (const double side : {-1.0, 1.0}) {
+    const Vec3 along(40, 0, 0), across(0, 6.0 * side, -0.12), pavement(0, 2.5 * side, 0);
+    road.first.push_back(road.cloud.size());
+    road.normal.push_back(along.cross(across).normalized());
+    test::add_rectangle(road.cloud, {0, 0, 0}, along, across, spacing, noise, random);
+    road.first.push_back(road.cloud.size());
+    road.normal.push_back(Vec3::UnitZ());
+    test::add_rectangle(road.cloud, across + Vec3(0, 0, 0.12), along, pavement, spacing, noise, random);
+  }
+  road.first.push_back(road.cloud.size());
+  const test::Run r = test::run(road.cloud, Options());
+  EXPECT_LT(errors_of(road, r).back(), 0.2);
+  for (const ArrangedPlane& p : r.result.planes) EXPECT_NE(p.tag, "ceiling");
+}
+
 // A street scanned thinly but precisely: the spacing makes the scale coarse, and still facades that stand 2° apart are two.
 TEST(Askew, FacadesOfAThinScanAreNotOne) {
   PointCloud cloud;

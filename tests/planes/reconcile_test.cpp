@@ -13,7 +13,7 @@ Mat3 about_z(double deg) {
   return Eigen::AngleAxisd(radians(deg), Vec3::UnitZ()).toRotationMatrix();
 }
 
-struct Input {
+struct Selected {
   Patches patches;
   Selection selection;
 
@@ -39,8 +39,8 @@ struct Input {
 };
 
 /// A room, and a table turned by `turn` whose top is tilted by `tilt` (deg); fits are known to `sigma` (deg).
-Input room_and_table(double turn, double tilt, double sigma) {
-  Input in;
+Selected room_and_table(double turn, double tilt, double sigma) {
+  Selected in;
   const Mat3 room = Mat3::Identity();
   const Mat3 table = Eigen::AngleAxisd(radians(tilt), Vec3::UnitX()).toRotationMatrix() * about_z(turn);
   in.frame(room);
@@ -77,7 +77,7 @@ TEST(Reconcile, FramesThatDoNotDifferSignificantlyBecomeOne) {
 }
 
 TEST(Reconcile, TheHeaviestFrameComesFirst) {
-  Input in = room_and_table(7, 0, 0.3);
+  Selected in = room_and_table(7, 0, 0.3);
   std::swap(in.selection.frames[0], in.selection.frames[1]);
   for (int& f : in.selection.frame_of_patch) f = 1 - f;
   const Reconciled r = in.run();
@@ -87,7 +87,7 @@ TEST(Reconcile, TheHeaviestFrameComesFirst) {
 }
 
 TEST(Reconcile, FramesWithoutPatchesGo) {
-  Input in = room_and_table(7, 0, 0.3);
+  Selected in = room_and_table(7, 0, 0.3);
   in.frame(about_z(33));
   EXPECT_EQ(in.run().frames.size(), 2u);
 }
@@ -97,7 +97,7 @@ TEST(Reconcile, ConstraintsHoldOnRandomScenes) {
   Random random(1);
   std::size_t constraints = 0;
   for (int scene = 0; scene < 40; ++scene) {
-    Input in;
+    Selected in;
     const double sigma = random.uniform(0.1, 0.8);
     const int frames = 2 + static_cast<int>(random.index(5));
     for (int f = 0; f < frames; ++f) {

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/cuts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kSplitGain = 0.6;       // a split must leave less than this share of the squared error
+constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature, unless
+constexpr double kShallow = 0.02, kShallowGain = 0.3;  // they are above this, rad, and leave less than this share,
+constexpr std::size_t kShallowCells = 100;  // of so many voxels or more
+constexpr double kBent = 0.25;            // of the tolerance: what is bent several times is off one plane by more, in the mean: noise may be correlated
+constexpr int kMostPieces = 5;           // straight ones, of what is bent several times
+constexpr int kSlices = 12;
+
+double squared_error(const Moments& m, const Space& space) {
+  const PlaneFit fit = fit_plane(m, space);
+  return fit.rms * fit.rms * m.count;
+}
+
+/// A region in slices of equal thickness along an axis.
+struct Slices {
+  std::vector<Moments> sum;
+  std::vector<int> of_voxel;  ///< parallel to the region
+};
+
+Slices slices_along(const Vec3& axis, const VoxelGrid& grid, const std::vector<int>& region) {
+  std::vector<double> along;
+  for (const int i : region) along.push_back(axis.dot(grid.moments[i].mean));
+  const auto [low, high] = std::minmax_element(along.begin(), along.end());
+  const double step = (*high - *low) / kSlices;
+  Slices slices;
+  if (!(step > 0)) return slices;
+  slices.sum.resize(kSlices);
+  for (std::size_t i = 0; i < region.size(); ++i) {
+    slices.of_voxel.push_back(std::min(kSlices - 1, static_cast<int>((along[i] - *low) / step)));
+    slices.sum[slices.of_voxel[i]] += grid.moments[region[i]];
+  }
+  return slices;
+}
+
+struct Cut {
+  int at = 0;  ///< slices below it are one side; 0 = none
+  double error = std::numeric_limits<double>::infinity();
+};
+
+/// The single cut that leaves least, if that is less than `most`. Flat hinges must leave less than `shallow`.
+Cut best_single(const std::vector<Moments>& slice, const Space& space, double most, double shallow) {
+  const double least = space.is_2d() ? 5 : 10;  // points
+  std::vector<Moments> above(kSlices + 1);
+  for (int c = kSlices - 1; c >= 0; --c) above[c] = above[c + 1] + slice[c];
+  Cut best{0, most};
+  Moments below;
+  for (int c = 1; c < kSlices; ++c) {
+    below += slice[c - 1];
+    if (below.count < least || above[c].count < least) continue;
+    const PlaneFit a = fit_plane(below, space), b = fit_plane(above[c], space);
+    const double error = a.rms * a.rms * below.count + b.rms * b.rms * above[c].count;
+    if (error >= best.error) continue;
+    const double hinge = line_angle(a.normal, b.normal);
+    if (hinge < kSplitAngle && (hinge < kShallow || error > shallow)) continue;
+    best = {c, error};
+  }
+  return best;
+}
+
+/// Ends of the pieces, last first, into which dynamic programming cuts slices so that `error`, of slices [i, j), is least; for each number of pieces.
+struct Pieces {
+  std::vector<std::vector<int>> ends = std::vector<std::vector<int>>(kMostPieces + 1);
+  std::vector<double> error = std::vector<double>(kMostPieces + 1);
+};
+
+Pieces best_pieces(const std::vector<std::vector<double>>& error) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<double>> least(kMostPieces + 1, std::vector<double>(kSlices + 1, infinity));
+  std::vector<std::vector<int>> from(kMostPieces + 1, std::vector<int>(kSlices + 1, 0));
+  least[0][0] = 0;
+  Pieces pieces;
+  for (int k = 1; k <= kMostPieces; ++k) {
+    for (int j = k; j <= kSlices; ++j)
+      for (int i = k - 1; i < j; ++i)
+        if (const double e = least[k - 1][i] + error[i][j]; e < least[k][j]) least[k][j] = e, from[k][j] = i;
+    pieces.error[k] = least[k][kSlices];
+    pieces.ends[k] = {kSlices};
+    for (int p = k; p > 0; --p) pieces.ends[k].push_back(from[p][pieces.ends[k].back()]);
+  }
+  return pieces;
+}
+
+/// The cut at the sharpest bend of the fewest straight pieces that explain most of what one plane does not, but planes of single slices do; with
+/// the error of most pieces.
+Cut sharpest_bend(const std::vector<Moments>& slice, const Space& space, double tolerance) {
+  constexpr double kFewest = 10;  // points in a slice
+  std::vector<std::vector<double>> error(kSlices, std::vector<double>(kSlices + 1, 0.0));
+  double by_slices = 0, count = 0;
+  for (int i = 0; i < kSlices; ++i) {
+    if (slice[i].count < kFewest) return {};
+    Moments sum;
+    for (int j = i + 1; j <= kSlices; ++j) {
+      sum += slice[j - 1];
+      error[i][j] = squared_error(sum, space);
+    }
+    by_slices += error[i][i + 1];
+    count += slice[i].count;
+  }
+  const double bent = error[0][kSlices] - by_slices;
+  if (bent < std::pow(kBent * tolerance, 2) * count) return {};
+  const Pieces pieces = best_pieces(error);
+  int k = 2;
+  while (k <= kMostPieces && pieces.error[k] - by_slices > kShallowGain * bent) ++k;
+  if (k > kMostPieces) return {};
+  const std::vector<int>& ends = pieces.ends[k];
+  std::vector<Vec3> normals;
+  for (std::size_t p = 0; p + 1 < ends.size(); ++p) {
+    Moments sum;
+    for (int i = ends[p + 1]; i < ends[p]; ++i) sum += slice[i];
+    normals.push_back(fit_plane(sum, space).normal);
+  }
+  Cut cut{0, pieces.error[kMostPieces]};
+  double sharpest = kShallow;
+  for (std::size_t p = 0; p + 1 < normals.size(); ++p)
+    if (const double bend = line_angle(normals[p], normals[p + 1]); bend > sharpest) sharpest = bend, cut.at = ends[p + 1];
+  return cut;
+}
+
+}  // namespace
+
+std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
+  const Moments whole = sum_of(grid, region);
+  const PlaneFit fit = fit_plane(whole, space);
+  const bool large = region.size() >= kShallowCells;
+  const double error = squared_error(whole, space), shallow = large ? kShallowGain * error : 0.0;
+  Cut single{0, kSplitGain * error}, bend;
+  Slices at_single, at_bend;
+  const int directions = space.is_2d() ? 1 : 8;
+  for (int d = 0; d < directions; ++d) {
+    const double angle = kPi * d / directions;
+    Slices slices = slices_along(std::cos(angle) * fit.u + std::sin(angle) * fit.v, grid, region);
+    if (slices.sum.empty()) continue;
+    if (single.at == 0 && large && !space.is_2d())
+      if (const Cut cut = sharpest_bend(slices.sum, space, grid.tolerance); cut.at > 0 && cut.error < bend.error) bend = cut, at_bend = slices;
+    if (const Cut cut = best_single(slices.sum, space, single.error, shallow); cut.at > 0) single = cut, at_single = std::move(slices);
+  }
+  const Cut& cut = single.at > 0 ? single : bend;
+  const std::vector<int>& slice_of = single.at > 0 ? at_single.of_voxel : at_bend.of_voxel;
+  std::pair<std::vector<int>, std::vector<int>> sides;
+  if (cut.at > 0)
+    for (std::size_t i = 0; i < region.size(); ++i) (slice_of[i] < cut.at ? sides.first : sides.second).push_back(region[i]);
+  return sides;
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/cuts.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numeric>
+
+#include "planes/scenes.h"
+
+namespace unseen::planes {
+namespace {
+
+/// The cut of a strip along x whose height is that of `profile`: where the voxels of its sides lie, dm, ascending.
+std::pair<std::vector<int>, std::vector<int>> cut_of_strip(const std::function<double(double)>& profile) {
+  PointCloud cloud;
+  Random random(2);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.uniform(0, 12);
+    cloud.positions.push_back({x, random.uniform(0, 4), profile(x) + 0.005 * random.normal()});
+  }
+  VoxelBuilder builder(0.1);
+  builder.add(cloud);
+  const VoxelGrid grid(builder);
+  std::vector<int> region(grid.size());
+  std::iota(region.begin(), region.end(), 0);
+  auto sides = best_cut(grid, {}, region);
+  for (std::vector<int>* side : {&sides.first, &sides.second}) {
+    for (int& voxel : *side) voxel = static_cast<int>(std::lround(10 * grid.moments[voxel].mean.x()));
+    std::sort(side->begin(), side->end());
+  }
+  return sides;
+}
+
+/// 4 m up and 4 m down again, by a share `amount`.
+double zigzag(double x, double amount) { return amount * std::abs(std::fmod(x + 2.0, 8.0) - 4.0); }
+
+TEST(Cuts, WhatIsBentSeveralTimesIsCutAtABend) {
+  const auto [a, b] = cut_of_strip([](double x) { return zigzag(x, 0.05); });
+  ASSERT_FALSE(a.empty());
+  const auto gap = [](const std::vector<int>& low, const std::vector<int>& high) { return std::min(std::abs(low.back() - high.front()), std::abs(high.back() - low.front())); };
+  EXPECT_LE(gap(a, b), 2);
+  const int at = std::max(a.front(), b.front());
+  EXPECT_LE(std::min({std::abs(at - 20), std::abs(at - 60), std::abs(at - 100)}), 6) << at;
+}
+
+TEST(Cuts, NoiseAndGentleWavesAreNotCut) {
+  EXPECT_TRUE(cut_of_strip([](double) { return 0.0; }).first.empty());
+  EXPECT_TRUE(cut_of_strip([](double x) { return zigzag(x, 0.008); }).first.empty()) << "bends of 0.9°";
+  EXPECT_TRUE(cut_of_strip([](double x) { return 0.02 * std::sin(2.0 * kPi * x / 4.0); }).first.empty()) << "2 cm, at a tolerance of 20";
+}
+
+}  // namespace
+}  // namespace unseen::planes
