@@ -115,6 +115,7 @@ struct Sampled {
 /// smallest.
 class EvenSample {
  public:
+  explicit EvenSample(std::size_t expected) { places_.reserve(std::min(expected, kSample + 1)); }
   bool wants(std::uint64_t hash) const { return zeros_ == 0 || hash >> (64 - zeros_) == 0; }
   void add(const Sampled& x) {
     std::uint32_t& slot = slot_of(x.hash);
@@ -171,7 +172,7 @@ Survey survey(PointSource& source, Context& context) {
   s.low.setConstant(std::numeric_limits<double>::infinity());
   s.high = -s.low;
   const bool normals = source.info().has_normals;
-  EvenSample sample;
+  EvenSample sample(source.info().point_count.value_or(0));
   const double total = static_cast<double>(source.info().point_count.value_or(0));
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -192,7 +193,9 @@ Survey survey(PointSource& source, Context& context) {
     s.points += block.size();
   });
   const bool twins = sample.twins(), no_duplicates = sample.has_all() && !twins;
-  for (const Sampled& x : std::move(sample).by_hash()) {
+  const std::vector<Sampled> places = std::move(sample).by_hash();
+  s.sample.reserve(places.size());
+  for (const Sampled& x : places) {
     s.sample.push_back(x.position);
     if (normals) s.sample_normals.push_back(x.normal);
   }

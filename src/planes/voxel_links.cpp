@@ -7,8 +7,6 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kRun = 1024;  // blocks that are linked together
-
 /// Blocks in the order of their keys; x and y as one number that sorts alike.
 struct SortedBlocks {
   std::vector<std::uint64_t> column;
@@ -38,8 +36,8 @@ void VoxelGrid::link_blocks(int rings, const Context& context) {
     sorted.z.push_back(k[2]);
   }
   const int side = 2 * rings + 1;
-  std::vector<std::vector<std::uint32_t>> linked((key.size() + kRun - 1) / kRun);
-  parallel_blocks(context, linked.size(), 1, [&](std::size_t run, std::size_t run_end) {
+  linked_.resize((key.size() + kRun - 1) / kRun);
+  parallel_blocks(context, linked_.size(), 1, [&](std::size_t run, std::size_t run_end) {
     std::array<std::vector<std::uint32_t>, kRings + 1> found;
     std::vector<std::size_t> first(side * side);
     for (; run < run_end; ++run)
@@ -56,17 +54,12 @@ void VoxelGrid::link_blocks(int rings, const Context& context) {
               found[std::max({std::abs(dx), std::abs(dy), std::abs(sorted.z[o] - z)})].push_back(static_cast<std::uint32_t>(o));
           }
         for (int r = 0; r <= kRings; ++r) {
-          blocks_[b].ring[r] = static_cast<std::uint32_t>(linked[run].size());
-          linked[run].insert(linked[run].end(), found[r].begin(), found[r].end());
+          blocks_[b].ring[r] = static_cast<std::uint32_t>(linked_[run].size());
+          linked_[run].insert(linked_[run].end(), found[r].begin(), found[r].end());
         }
-        blocks_[b].ring[kRings + 1] = static_cast<std::uint32_t>(linked[run].size());
+        blocks_[b].ring[kRings + 1] = static_cast<std::uint32_t>(linked_[run].size());
       }
   });
-  for (std::size_t run = 0; run < linked.size(); ++run) {
-    for (std::size_t b = run * kRun; b < std::min(key.size(), (run + 1) * kRun); ++b)
-      for (std::uint32_t& at : blocks_[b].ring) at += static_cast<std::uint32_t>(linked_.size());
-    linked_.insert(linked_.end(), linked[run].begin(), linked[run].end());
-  }
 }
 
 }  // namespace unseen::planes

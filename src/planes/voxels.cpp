@@ -90,6 +90,11 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip, s
   }
 }
 
+void VoxelBuilder::reserve(std::size_t voxels) {
+  table_.reserve(voxels);
+  sums_.reserve(voxels);
+}
+
 void VoxelBuilder::join(const VoxelBuilder& other) {
   outside_ += other.outside_;
   for (std::size_t i = 0; i < other.sums_.size(); ++i) sums_of(other.keys()[i]) += other.sums_[i];
@@ -234,7 +239,9 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
 
 VoxelBuilder summarise(PointSource& source, double edge, const Box& within, const std::vector<bool>& duplicate,
                        Context& context) {
+  constexpr std::size_t kMostReserved = std::size_t{1} << 20;
   VoxelBuilder builder(edge, within);
+  builder.reserve(std::min<std::size_t>(source.info().point_count.value_or(0), kMostReserved));
   const double total = static_cast<double>(source.info().point_count.value_or(0));
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     builder.add(block, duplicate, first);

@@ -41,6 +41,7 @@ class KeyTable {
   int find(const VoxelKey& key) const;
   /// Index of a key, which is appended if it is new.
   std::size_t insert(const VoxelKey& key);
+  void reserve(std::size_t keys) { keys_.reserve(keys); }
 
  private:
   std::size_t slot(const VoxelKey& key) const;
@@ -60,6 +61,8 @@ class VoxelBuilder {
   /// Throws InputError if a coordinate is too large for the grid (2³¹ voxels).
   void add(const PointCloud& block, const std::vector<bool>& skip = {}, std::size_t first = 0);
   void join(const VoxelBuilder& other);
+  /// Makes room for so many voxels at once: what is not filled costs nothing, but growing step by step does.
+  void reserve(std::size_t voxels);
 
   double edge() const { return edge_; }
   const Box& within() const { return within_; }
@@ -131,7 +134,7 @@ class VoxelGrid {
   struct Block {
     std::uint64_t mask = 0;   ///< which of its 4³ voxels are occupied, x slowest
     std::uint32_t first = 0;  ///< index of its first voxel
-    std::array<std::uint32_t, kRings + 2> ring{};  ///< linked_[ring[r]…ring[r+1]): occupied blocks r blocks away
+    std::array<std::uint32_t, kRings + 2> ring{};  ///< [ring[r]…ring[r+1]) of its run's links: occupied blocks r blocks away
   };
   /// Lays out the voxels with these keys (some may be equal) and returns the index of each.
   std::vector<int> place(const std::vector<VoxelKey>& unordered, int rings, const Context& context);
@@ -148,7 +151,8 @@ class VoxelGrid {
 
   KeyTable block_table_;
   std::vector<Block> blocks_;              ///< parallel to block_table_.keys()
-  std::vector<std::uint32_t> linked_;      ///< indices of blocks
+  static constexpr std::size_t kRun = 1024;         ///< blocks that are linked together
+  std::vector<std::vector<std::uint32_t>> linked_;  ///< of each run, indices of blocks
   std::vector<std::uint32_t> block_of_;    ///< of each voxel
 };
 
@@ -189,9 +193,10 @@ void VoxelGrid::visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) c
   const VoxelKey low = {key[0] - reach, key[1] - reach, key[2] - reach};
   const VoxelKey high = {key[0] + reach, key[1] + reach, key[2] + reach};
   const Block& home = blocks_[block_of_[voxel]];
+  const std::vector<std::uint32_t>& links = linked_[block_of_[voxel] / kRun];
   const std::uint32_t end = home.ring[std::min((reach + 3) / 4, kRings) + 1];
   for (std::uint32_t l = home.ring[0]; l < end; ++l) {
-    const std::uint32_t b = linked_[l];
+    const std::uint32_t b = links[l];
     if (const std::uint64_t within = bits(b); within != 0)
       visit(blocks_[b], within, block_table_.keys()[b], low, high, f);
   }
