@@ -68,12 +68,13 @@ Cut best_single(const std::vector<Moments>& slice, const Space& space, double mo
   return best;
 }
 
-/// Ends of the pieces, last first, into which dynamic programming cuts slices so that `error`, of slices [i, j), is least; for each number of pieces.
+/// Slices cut into 1 to kMostPieces pieces, by their number: where they end, last first, and the squared error that they leave.
 struct Pieces {
   std::vector<std::vector<int>> ends = std::vector<std::vector<int>>(kMostPieces + 1);
   std::vector<double> error = std::vector<double>(kMostPieces + 1);
 };
 
+/// The pieces that leave least, by dynamic programming over `error` of slices [i, j).
 Pieces best_pieces(const std::vector<std::vector<double>>& error) {
   const double infinity = std::numeric_limits<double>::infinity();
   std::vector<std::vector<double>> least(kMostPieces + 1, std::vector<double>(kSlices + 1, infinity));
@@ -134,22 +135,25 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
   const PlaneFit fit = fit_plane(whole, space);
   const bool large = region.size() >= kShallowCells;
   const double error = squared_error(whole, space), shallow = large ? kShallowGain * error : 0.0;
-  Cut single{0, kSplitGain * error}, bend;
-  Slices at_single, at_bend;
   const int directions = space.is_2d() ? 1 : 8;
+  std::vector<Slices> slices;
   for (int d = 0; d < directions; ++d) {
     const double angle = kPi * d / directions;
-    Slices slices = slices_along(std::cos(angle) * fit.u + std::sin(angle) * fit.v, grid, region);
-    if (slices.sum.empty()) continue;
-    if (single.at == 0 && large && !space.is_2d())
-      if (const Cut cut = sharpest_bend(slices.sum, space, grid.tolerance); cut.at > 0 && cut.error < bend.error) bend = cut, at_bend = slices;
-    if (const Cut cut = best_single(slices.sum, space, single.error, shallow); cut.at > 0) single = cut, at_single = std::move(slices);
+    Slices along = slices_along(std::cos(angle) * fit.u + std::sin(angle) * fit.v, grid, region);
+    if (!along.sum.empty()) slices.push_back(std::move(along));
   }
-  const Cut& cut = single.at > 0 ? single : bend;
-  const std::vector<int>& slice_of = single.at > 0 ? at_single.of_voxel : at_bend.of_voxel;
+  Cut best{0, kSplitGain * error};
+  const Slices* of_best = nullptr;
+  for (const Slices& along : slices)
+    if (const Cut cut = best_single(along.sum, space, best.error, shallow); cut.at > 0) best = cut, of_best = &along;
+  if (of_best == nullptr && large && !space.is_2d()) {
+    best = {};
+    for (const Slices& along : slices)
+      if (const Cut cut = sharpest_bend(along.sum, space, grid.tolerance); cut.at > 0 && cut.error < best.error) best = cut, of_best = &along;
+  }
   std::pair<std::vector<int>, std::vector<int>> sides;
-  if (cut.at > 0)
-    for (std::size_t i = 0; i < region.size(); ++i) (slice_of[i] < cut.at ? sides.first : sides.second).push_back(region[i]);
+  if (of_best != nullptr)
+    for (std::size_t i = 0; i < region.size(); ++i) (of_best->of_voxel[i] < best.at ? sides.first : sides.second).push_back(region[i]);
   return sides;
 }
 

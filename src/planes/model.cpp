@@ -105,9 +105,16 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
 
 /// Sets patches free that their frame would turn out of their own points: joined with others, they would hide it.
 void hold_patches(const Patches& patches, double tolerance, const Space& space, Model& model, std::vector<int>& frame, std::vector<int>& local) {
-  for (std::size_t j = 0; j < patches.patches.size(); ++j) model.surfaces.push_back({frame[j], local[j], patches.patches[j], 0.0});
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+    const Patch& patch = patches.patches[j];
+    Patch& known = model.surfaces.emplace_back(Surface{frame[j], local[j], {}, 0.0}).support;  // without its cells
+    known.moments = patch.moments;
+    known.fit = patch.fit;
+    known.variance_u = patch.variance_u;
+    known.variance_v = patch.variance_v;
+  }
   refit_held(model, tolerance, space);
-  for (std::size_t j = 0; j < patches.patches.size(); ++j) frame[j] = model.surfaces[j].frame, local[j] = model.surfaces[j].local;
+  for (std::size_t j = 0; j < model.surfaces.size(); ++j) frame[j] = model.surfaces[j].frame, local[j] = model.surfaces[j].local;
   model.surfaces.clear();
 }
 

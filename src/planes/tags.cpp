@@ -20,9 +20,9 @@ constexpr double kOverlap = 0.5;  // of the smaller one's extent, for one to lie
 constexpr double kWall = 0.5;     // of the room's height
 constexpr double kRoomy = 0.04;   // of the largest level plane's width: where all is lower, there is no ceiling
 constexpr double kNarrow = 0.1;   // of the room's height: what is narrower in the mean is a post, or a seam
-constexpr double kPlumb = 0.5 * kPi / 180.0;  // what of a wall's lean speaks for no other vertical
-constexpr double kSpeak = 0.5;    // of the most area of walls that speak for one
-constexpr std::size_t kMostUps = 20;
+constexpr double kPlumb = 0.5 * kPi / 180.0;  // a wall that leans by more does not speak for a vertical
+constexpr double kSpeak = 0.5;    // of the most area of walls that speak for one: as much speaks for another as well
+constexpr std::size_t kMostUps = 20;  // directions with the most area that may be the vertical
 
 /// What a plane's outline reaches, along two level axes and upward.
 struct Bounds {
@@ -56,24 +56,25 @@ Vec3 up_of(const Arrangement& result) {
   std::map<int, double> area;
   for (const ArrangedPlane& p : result.planes)
     if (line_angle(p.plane.normal, Vec3::UnitZ()) < kPi / 12) area[p.direction] += p.area;
-  std::vector<std::pair<double, Vec3>> candidates;
-  for (const auto& [direction, a] : area) {
+  std::vector<std::pair<int, double>> largest(area.begin(), area.end());
+  std::stable_sort(largest.begin(), largest.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  if (largest.size() > kMostUps) largest.resize(kMostUps);
+  std::vector<Vec3> ups;
+  for (const auto& [direction, a] : largest) {
     const Vec3& n = result.directions[direction].normal;
-    candidates.emplace_back(a, n.z() < 0 ? Vec3(-n) : n);
+    ups.push_back(n.z() < 0 ? Vec3(-n) : n);
   }
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  if (candidates.size() > kMostUps) candidates.resize(kMostUps);
-  candidates.emplace_back(0.0, Vec3::UnitZ());
+  ups.push_back(Vec3::UnitZ());
   std::vector<Votes> votes;
   double plumb = 0;
-  for (const auto& [a, up] : candidates) {
+  for (const Vec3& up : ups) {
     votes.push_back(votes_for(up, result));
     plumb = std::max(plumb, votes.back().plumb);
   }
-  std::size_t best = candidates.size();
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (votes[i].plumb >= kSpeak * plumb && (best == candidates.size() || votes[i].level > (1.0 + 1e-9) * votes[best].level)) best = i;
-  return candidates[best].second;
+  std::size_t best = ups.size();
+  for (std::size_t i = 0; i < ups.size(); ++i)
+    if (votes[i].plumb >= kSpeak * plumb && (best == ups.size() || votes[i].level > (1.0 + 1e-9) * votes[best].level)) best = i;
+  return ups[best];
 }
 
 Bounds bounds_of(const ArrangedPlane& p, const Mat3& axes) {
