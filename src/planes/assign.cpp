@@ -8,7 +8,6 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kReach = 1.3;  // of the local reach
 constexpr double kLeastSine = 0.17;  // planes at less than 10° have no edge to speak of
 constexpr double kToss = 2.0;        // times the noise: points nearer to an edge may be either plane's
 constexpr double kClear = 0.25;      // of the scale: what lies nearer to a plane is on neither side of it
@@ -95,7 +94,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
     std::vector<int> met;
     for (std::size_t i = begin; i < end; ++i) {
       met.clear();
-      const int around = voxels_within(cells, grid, i, kReach);
+      const int around = voxels_within(cells, grid, i, kBeyondReach);
       int last = VoxelGrid::kNone;  // neighbours mostly support the same plane
       const auto nothing_new = [&](std::uint32_t block) {
         return plane_of_block[block] == VoxelGrid::kNone || plane_of_block[block] == last;

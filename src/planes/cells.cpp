@@ -9,6 +9,7 @@ namespace unseen::planes {
 namespace {
 
 constexpr int kLevels = 4;
+constexpr int kGathered = 2;             // voxels to either side
 constexpr double kFlattest = 0.15;       // λ₀/λ₁ above which a neighbourhood has no reliable normal
 constexpr double kLeastReach = 1.25, kMostReach = 5.0;  // of the scale
 constexpr double kProves = 0.03;         // variation above which a normal proves nothing
@@ -25,7 +26,7 @@ Moments gather(const VoxelGrid& grid, std::size_t voxel, const Vec3& center, dou
   double n = 0;
   Vec3 first = Vec3::Zero();
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  grid.for_neighbours(voxel, 2, [&](int i) {
+  grid.for_neighbours(voxel, kGathered, [&](int i) {
     const Moments& m = grid.moments[i];
     const Vec3 d = m.mean - center;
     const double inside = d.squaredNorm() > radius * radius ? 0.0 : 1.0;  // no jump: as many lie in as out
@@ -80,7 +81,7 @@ NormalVerdict compare_normal(const Cells& cells, std::size_t voxel, const Vec3& 
   return std::abs(n.dot(normal)) >= kCompatible ? NormalVerdict::agrees : NormalVerdict::contradicts;
 }
 
-Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& context) {
+Cells estimate_normals(VoxelGrid& grid, const Space& space, Context& context) {
   std::vector<Level> levels(kLevels);
   for (int l = 1; l < kLevels; ++l) {
     const VoxelGrid& finer = l == 1 ? grid : levels[l - 1].grid;
@@ -115,11 +116,14 @@ Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& conte
         break;
       }
       if (cells.normal[i].isZero() && !grid.normals.empty()) {
-        cells.normal[i] = input_normal(grid.normals[i], space);
+        cells.normal[i] = input_normal(grid.normals[i].cast<double>(), space);
         if (!cells.normal[i].isZero()) cells.variation[i] = kLevels + 0.5;  // proves nothing
       }
     }
   });
+  std::vector<int> reach(grid.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) reach[i] = voxels_within(cells, grid, i, kBeyondReach);
+  grid.find_farther(reach, context);
   return cells;
 }
 

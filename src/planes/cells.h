@@ -16,7 +16,9 @@ struct Cells {
   std::vector<double> reach;      ///< m, how far apart neighbours may be: more than the scale where sampling is sparse
 };
 
-/// Reach of a voxel in voxels, times `factor`.
+constexpr double kBeyondReach = 1.3;  ///< of the reach: no neighbours are asked for that are farther away
+
+/// Reach of a voxel in voxels, times `factor` (≤ kBeyondReach).
 inline int voxels_within(const Cells& cells, const VoxelGrid& grid, std::size_t voxel, double factor = 1.0) {
   return static_cast<int>(factor * cells.reach[voxel] / grid.edge);
 }
@@ -26,8 +28,9 @@ enum class NormalVerdict : std::int8_t { agrees, unknown, contradicts };
 NormalVerdict compare_normal(const Cells& cells, std::size_t voxel, const Vec3& normal);
 
 /// Estimates each voxel's normal by PCA over the smallest of the radii ρ, 2ρ, 4ρ, 8ρ (grid.edge = ρ/2) whose
-/// neighbourhood is flat enough to have one; where there is none, from the input's own normals.
-Cells estimate_normals(const VoxelGrid& grid, const Space& space, Context& context);
+/// neighbourhood is flat enough to have one; where there is none, from the input's own normals. Lets the grid's
+/// neighbours be found within their reach.
+Cells estimate_normals(VoxelGrid& grid, const Space& space, Context& context);
 
 /// Local scale: grows with the distance to `viewpoint` beyond the median distance, or, without one, with the
 /// local noise, up to four times ρ.

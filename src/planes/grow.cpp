@@ -31,22 +31,21 @@ static_assert(sizeof(Cell) == 64);
 
 CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
                       Context& context) {
-  std::vector<int> order;
+  std::vector<std::pair<double, int>> order;  // variation, voxel
   for (std::size_t i = 0; i < grid.size(); ++i)
-    if (!cells.normal[i].isZero()) order.push_back(static_cast<int>(i));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return cells.variation[a] < cells.variation[b]; });
+    if (!cells.normal[i].isZero()) order.emplace_back(cells.variation[i], static_cast<int>(i));
+  std::sort(order.begin(), order.end());
 
   const double cos_angle = std::cos(angle);
   std::vector<Cell> cell;
-  cell.reserve(grid.size());
+  reserve_large(cell, grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i)
     cell.push_back({grid.moments[i].mean, cells.normal[i], cells.reach[i], cells.tolerance[i]});
   VoxelSet open = grid.empty_set();  // neither taken by a region nor in the one that grows
-  for (const int i : order) grid.insert(open, i);
+  for (const auto& [variation, i] : order) grid.insert(open, i);
   CellSets regions;
   std::size_t visited = 0;
-  for (const int seed : order) {
+  for (const auto& [variation, seed] : order) {
     if ((++visited & 0xfff) == 0) context.progress(static_cast<double>(visited) / order.size());
     if (!grid.contains(open, seed)) continue;
     std::vector<int> region = {seed};

@@ -91,7 +91,7 @@ void sort_unique(Pairs& pairs) {
 void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Patches& result, const Context& context) {
   const std::vector<int>& patch_of_cell = result.patch_of_cell;
   std::vector<int> parent;
-  const VoxelGrid coarse = grid.coarser(parent, context);  // voxels of edge ρ
+  VoxelGrid coarse = grid.coarser(parent, context);  // voxels of edge ρ
   struct Member {  // a patch's share of a voxel
     int patch;
     Eigen::AlignedBox3d box;
@@ -108,6 +108,11 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     it->box.extend(grid.moments[i].mean);
     it->reach = std::max(it->reach, 1.6 * cells.reach[i]);
   }
+  const auto voxels_within = [&](const Member& m) { return static_cast<int>(m.reach / coarse.edge); };
+  std::vector<int> reach(coarse.size(), 0);
+  for (std::size_t c = 0; c < coarse.size(); ++c)
+    for (const Member& m : members[c]) reach[c] = std::max(reach[c], voxels_within(m));
+  coarse.find_farther(reach, context);
   const double cos_angle = std::cos(angle);
   std::mutex joining;
   parallel_blocks(context, coarse.size(), 512, [&](std::size_t begin, std::size_t end) {
@@ -120,7 +125,7 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
       for (const Member& a : members[c]) {
         beside.clear();
         alike.clear();
-        coarse.for_neighbours(c, static_cast<int>(a.reach / coarse.edge), [&](int o) {
+        coarse.for_neighbours(c, voxels_within(a), [&](int o) {
           for (const Member& b : members[o]) {
             if (a.patch == b.patch || a.box.squaredExteriorDistance(b.box) >= a.reach * a.reach) continue;
             once(beside, b.patch);

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double kMergeLoss = 1.2;       // a merge may raise either part's rms by this factor
 constexpr std::size_t kSplitCells = 12;  // smaller regions are left alone
-constexpr double kRimReach = 1.3;        // of the local reach: how near a larger region must be to explain one
 constexpr double kRimShare = 0.9;        // of a region's points that must be explained
 
 struct Region {
@@ -191,7 +190,7 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
       const auto no_other = [&](std::uint32_t block) {
         return found || region_of_block[block] == VoxelGrid::kNone || region_of_block[block] == r;
       };
-      grid.for_neighbours_unless(i, voxels_within(cells, grid, i, kRimReach), no_other, [&](int k) {
+      grid.for_neighbours_unless(i, voxels_within(cells, grid, i, kBeyondReach), no_other, [&](int k) {
         const int o = region_of[k];
         if (found || o < 0 || o == r || size[o] <= size[r]) return;
         found = std::abs(planes[o].signed_distance(grid.moments[i].mean)) < cells.tolerance[i];

@@ -42,7 +42,7 @@ void find_duplicates(PointSource& source, Survey& survey) {
     auto operator<=>(const Hashed&) const = default;
   };
   std::vector<Hashed> order;
-  order.reserve(survey.finite);
+  reserve_large(order, survey.finite);
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     for (std::size_t i = 0; i < block.size(); ++i)
       if (block.positions[i].allFinite())
@@ -115,7 +115,7 @@ struct Sampled {
 /// smallest.
 class EvenSample {
  public:
-  explicit EvenSample(std::size_t expected) { places_.reserve(std::min(expected, kSample + 1)); }
+  explicit EvenSample(std::size_t expected) { reserve_large(places_, std::min(expected, kSample + 1)); }
   bool wants(std::uint64_t hash) const { return zeros_ == 0 || hash >> (64 - zeros_) == 0; }
   void add(const Sampled& x) {
     std::uint32_t& slot = slot_of(x.hash);
@@ -194,7 +194,7 @@ Survey survey(PointSource& source, Context& context) {
   });
   const bool twins = sample.twins(), no_duplicates = sample.has_all() && !twins;
   const std::vector<Sampled> places = std::move(sample).by_hash();
-  s.sample.reserve(places.size());
+  reserve_large(s.sample, places.size());
   for (const Sampled& x : places) {
     s.sample.push_back(x.position);
     if (normals) s.sample_normals.push_back(x.normal);

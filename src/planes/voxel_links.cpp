@@ -18,6 +18,8 @@ std::uint64_t column_of(std::int32_t x, std::int32_t y) {
   return std::uint64_t{static_cast<std::uint32_t>(x) ^ kSign} << 32 | (static_cast<std::uint32_t>(y) ^ kSign);
 }
 
+constexpr std::size_t kUnknown = -1;
+
 /// The first block of a column at z or above.
 std::size_t first_at(const SortedBlocks& blocks, std::uint64_t column, std::int32_t z) {
   const auto [from, to] = std::equal_range(blocks.column.begin(), blocks.column.end(), column);
@@ -27,38 +29,45 @@ std::size_t first_at(const SortedBlocks& blocks, std::uint64_t column, std::int3
 
 }  // namespace
 
-/// Blocks are sorted, so that the first block of each column beside one moves only forward with it.
-void VoxelGrid::link_blocks(int rings, const Context& context) {
+/// Blocks are sorted, so that the first block of each column beside one, as low as any may ask for, moves only forward with it.
+void VoxelGrid::link_blocks(const std::vector<int>& rings_of_block, const Context& context) {
   const std::vector<VoxelKey>& key = block_table_.keys();
+  if (key.empty()) return;
   SortedBlocks sorted;
   for (const VoxelKey& k : key) {
     sorted.column.push_back(column_of(k[0], k[1]));
     sorted.z.push_back(k[2]);
   }
-  const int side = 2 * rings + 1;
+  const int most = *std::max_element(rings_of_block.begin(), rings_of_block.end()), side = 2 * most + 1;
   linked_.resize((key.size() + kRun - 1) / kRun);
   parallel_blocks(context, linked_.size(), 1, [&](std::size_t run, std::size_t run_end) {
     std::array<std::vector<std::uint32_t>, kRings + 1> found;
+    std::vector<std::uint32_t> links;
     std::vector<std::size_t> first(side * side);
-    for (; run < run_end; ++run)
+    for (; run < run_end; ++run) {
+      links.clear();
+      std::fill(first.begin(), first.end(), kUnknown);
       for (std::size_t b = run * kRun; b < std::min(key.size(), (run + 1) * kRun); ++b) {
         const auto [x, y, z] = key[b];
+        const int rings = blocks_[b].rings = rings_of_block[b];
         for (auto& ring : found) ring.clear();
         for (int dx = -rings; dx <= rings; ++dx)
           for (int dy = -rings; dy <= rings; ++dy) {
             const std::uint64_t column = column_of(x + dx, y + dy);
-            std::size_t& at = first[(dx + rings) * side + dy + rings];
-            if (b == run * kRun) at = first_at(sorted, column, z - rings);
-            while (at < key.size() && (sorted.column[at] < column || (sorted.column[at] == column && sorted.z[at] < z - rings))) ++at;
+            std::size_t& at = first[(dx + most) * side + dy + most];
+            if (at == kUnknown) at = first_at(sorted, column, z - most);
+            while (at < key.size() && (sorted.column[at] < column || (sorted.column[at] == column && sorted.z[at] < z - most))) ++at;
             for (std::size_t o = at; o < key.size() && sorted.column[o] == column && sorted.z[o] <= z + rings; ++o)
-              found[std::max({std::abs(dx), std::abs(dy), std::abs(sorted.z[o] - z)})].push_back(static_cast<std::uint32_t>(o));
+              if (sorted.z[o] >= z - rings) found[std::max({std::abs(dx), std::abs(dy), std::abs(sorted.z[o] - z)})].push_back(static_cast<std::uint32_t>(o));
           }
         for (int r = 0; r <= kRings; ++r) {
-          blocks_[b].ring[r] = static_cast<std::uint32_t>(linked_[run].size());
-          linked_[run].insert(linked_[run].end(), found[r].begin(), found[r].end());
+          blocks_[b].ring[r] = static_cast<std::uint32_t>(links.size());
+          links.insert(links.end(), found[r].begin(), found[r].end());
         }
-        blocks_[b].ring[kRings + 1] = static_cast<std::uint32_t>(linked_[run].size());
+        blocks_[b].ring[kRings + 1] = static_cast<std::uint32_t>(links.size());
       }
+      linked_[run] = links;  // copied, as it has just the room it needs
+    }
   });
 }
 

@@ -92,7 +92,7 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip, s
 
 void VoxelBuilder::reserve(std::size_t voxels) {
   table_.reserve(voxels);
-  sums_.reserve(voxels);
+  reserve_large(sums_, voxels);
 }
 
 void VoxelBuilder::join(const VoxelBuilder& other) {
@@ -132,13 +132,30 @@ void KeyTable::grow() {
   for (std::size_t k = 0; k < keys_.size(); ++k) slots_[slot(keys_[k])] = static_cast<std::uint32_t>(k + 1);
 }
 
+constinit const VoxelGrid::Slices VoxelGrid::kSlices = [] {
+  constexpr std::uint64_t kFirst[] = {0xffff, 0x000f'000f'000f'000f, 0x1111'1111'1111'1111};  // of the four slices across an axis
+  constexpr int kApart[] = {16, 4, 1};                                                       // bits from one to the next
+  Slices slices{};
+  for (int reach = 0; reach <= kMostReach; ++reach)
+    for (int axis = 0; axis < 3; ++axis)
+      for (int at = 0; at < 4; ++at)
+        for (int slice = 0; slice < 4 * (2 * kRings + 1); ++slice)
+          if (const int apart = slice - 4 * kRings - at; -reach <= apart && apart <= reach)
+            slices[reach][axis][at][slice / 4] |= kFirst[axis] << kApart[axis] * (slice % 4);
+  return slices;
+}();
+
 VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context)
     : edge(builder.edge()), tolerance(2.0 * builder.edge()), within(builder.within()) {
-  const std::vector<int> place_of = place(builder.keys(), kRings, context);
+  const std::vector<int> place_of = place(builder.keys(), context);
+  reserve_large(moments, size());
   moments.resize(size());
   bool any_normals = false;
   for (const VoxelSums& s : builder.sums()) any_normals = any_normals || (s.normal[0] + s.normal[3] + s.normal[5] > 0);
-  if (any_normals) normals.resize(size());
+  if (any_normals) {
+    reserve_large(normals, size());
+    normals.resize(size());
+  }
   const double unit = edge / kSteps;
   for (std::size_t i = 0; i < size(); ++i) {
     const VoxelKey& key = builder.keys()[i];
@@ -150,11 +167,11 @@ VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context)
     m.count = count;
     m.mean = Vec3(key[0], key[1], key[2]) * edge + (q + Vec3::Constant(0.5)) * unit;
     m.scatter = symmetric(s.second, unit * unit) - count * unit * unit * q * q.transpose();
-    if (any_normals) normals[place_of[i]] = symmetric(s.normal, 1.0 / (kNormalSteps * kNormalSteps));
+    if (any_normals) normals[place_of[i]] = symmetric(s.normal, 1.0 / (kNormalSteps * kNormalSteps)).cast<float>();
   }
 }
 
-std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int rings, const Context& context) {
+std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, const Context& context) {
   KeyTable found;
   std::vector<std::uint64_t> masks;
   std::vector<std::uint32_t> found_of;
@@ -172,7 +189,7 @@ std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int ri
   blocks_.reserve(masks.size());
   for (const std::uint32_t b : order) {
     rank[b] = static_cast<std::uint32_t>(block_table_.insert(found.keys()[b]));
-    blocks_.push_back({masks[b], count, {}});
+    blocks_.push_back({masks[b], count, 0, {}});
     count += count_bits(masks[b]);
   }
   keys.resize(count);
@@ -184,8 +201,18 @@ std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, int ri
     keys[at] = unordered[i];
     block_of_[at] = b;
   }
-  link_blocks(rings, context);
+  link_blocks(std::vector<int>(blocks_.size(), rings_within(kFirstReach)), context);
   return place_of;
+}
+
+void VoxelGrid::find_farther(const std::vector<int>& reach, const Context& context) {
+  if (std::all_of(reach.begin(), reach.end(), [](int r) { return r <= kFirstReach; })) return;
+  std::vector<int> rings(blocks_.size(), rings_within(kFirstReach));
+  for (std::size_t i = 0; i < size(); ++i) {
+    int& of_block = rings[block_of_[i]];
+    of_block = std::max(of_block, rings_within(reach[i]));
+  }
+  link_blocks(rings, context);
 }
 
 std::vector<int> VoxelGrid::labels_of_blocks(const std::vector<int>& label_of_voxel) const {
@@ -227,13 +254,10 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   grid.edge = 2.0 * edge;
   grid.tolerance = tolerance;
   grid.within = within;
-  parent = grid.place(up, kCoarserRings, context);
+  parent = grid.place(up, context);
+  reserve_large(grid.moments, grid.size());
   grid.moments.resize(grid.size());
-  if (!normals.empty()) grid.normals.assign(grid.size(), Mat3::Zero());
-  for (std::size_t i = 0; i < size(); ++i) {
-    grid.moments[parent[i]] += moments[i];
-    if (!normals.empty()) grid.normals[parent[i]] += normals[i];
-  }
+  for (std::size_t i = 0; i < size(); ++i) grid.moments[parent[i]] += moments[i];
   return grid;
 }
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "core/large_pages.h"
 #include "planes/moments.h"
 #include "unseen/core/context.h"
 #include "unseen/core/point_cloud.h"
@@ -41,7 +43,7 @@ class KeyTable {
   int find(const VoxelKey& key) const;
   /// Index of a key, which is appended if it is new.
   std::size_t insert(const VoxelKey& key);
-  void reserve(std::size_t keys) { keys_.reserve(keys); }
+  void reserve(std::size_t keys) { reserve_large(keys_, keys); }
 
  private:
   std::size_t slot(const VoxelKey& key) const;
@@ -98,8 +100,9 @@ class VoxelGrid {
   Vec3 center_of(const VoxelKey& key) const;
   /// Index of the voxel with this key, or −1 if it is empty.
   int find(const VoxelKey& key) const;
-  /// Calls f(index) for each occupied voxel at most `reach` (≤ 16; ≤ 8 in a coarser grid) voxels away from
-  /// `voxel` along every axis, itself included; blocks nearer to it come first.
+  static constexpr int kFirstReach = 4, kMostReach = 16;
+  /// Calls f(index) for each occupied voxel at most `reach` voxels away from `voxel` along every axis, itself
+  /// included; blocks nearer to it come first. Up to kFirstReach, or farther where find_farther() was asked for it.
   template <class F>
   void for_neighbours(std::size_t voxel, int reach, F&& f) const;
   /// The same for those in a set, from which f may take the voxel it is called with.
@@ -113,13 +116,16 @@ class VoxelGrid {
   /// Of each block the label that its voxels have, apart from those with kNone.
   std::vector<int> labels_of_blocks(const std::vector<int>& label_of_voxel) const;
 
+  /// Lets for_neighbours() look reach[voxel] (≤ kMostReach) voxels away from each voxel.
+  void find_farther(const std::vector<int>& reach, const Context& context);
+
   VoxelSet empty_set() const;
   void insert(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] |= bit_of(keys[voxel]); }
   void erase(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] &= ~bit_of(keys[voxel]); }
   bool contains(const VoxelSet& set, std::size_t voxel) const {
     return (set.bits_[block_of_[voxel]] & bit_of(keys[voxel])) != 0;
   }
-  /// The same points in voxels of twice the edge; `parent` gets each voxel's index in the coarser grid.
+  /// The same points, without their normals, in voxels of twice the edge; `parent` gets each voxel's index in the coarser grid.
   VoxelGrid coarser(std::vector<int>& parent, const Context& context = Context()) const;
 
   double edge = 0;
@@ -127,25 +133,28 @@ class VoxelGrid {
   Box within;  ///< what lies outside is in no voxel
   std::vector<VoxelKey> keys;
   std::vector<Moments> moments;
-  std::vector<Mat3> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
+  std::vector<Eigen::Matrix3f> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
 
  private:
-  static constexpr int kRings = 4, kCoarserRings = 2;  ///< how many blocks away neighbours are linked
+  static constexpr int kRings = kMostReach / 4;  ///< how many blocks away neighbours are linked, at most
+  static int rings_within(int reach) { return std::min((reach + 3) / 4, kRings); }
+  /// [reach][axis][place in its block]: of the block that lies 0…2·kRings blocks behind the first linked one along
+  /// an axis, the voxels that are within reach of one at that place, as bits of its mask.
+  using Slices = std::array<std::array<std::array<std::array<std::uint64_t, 2 * kRings + 1>, 4>, 3>, kMostReach + 1>;
+  static const Slices kSlices;
   struct Block {
     std::uint64_t mask = 0;   ///< which of its 4³ voxels are occupied, x slowest
     std::uint32_t first = 0;  ///< index of its first voxel
+    std::int32_t rings = 0;   ///< so far it is linked
     std::array<std::uint32_t, kRings + 2> ring{};  ///< [ring[r]…ring[r+1]) of its run's links: occupied blocks r blocks away
   };
   /// Lays out the voxels with these keys (some may be equal) and returns the index of each.
-  std::vector<int> place(const std::vector<VoxelKey>& unordered, int rings, const Context& context);
-  void link_blocks(int rings, const Context& context);
+  std::vector<int> place(const std::vector<VoxelKey>& unordered, const Context& context);
+  void link_blocks(const std::vector<int>& rings_of_block, const Context& context);
   /// A voxel's place in the mask of its block.
   static std::uint64_t bit_of(const VoxelKey& k) {
     return std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
   }
-  template <class F>
-  static void visit(const Block& block, std::uint64_t within, const VoxelKey& block_key, const VoxelKey& low,
-                    const VoxelKey& high, F&& f);
   template <class Bits, class F>
   void visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) const;
 
@@ -168,37 +177,23 @@ inline int count_bits(std::uint64_t x) {
   return static_cast<int>((x * 0x0101010101010101u) >> 56);
 }
 
-template <class F>
-void VoxelGrid::visit(const Block& block, std::uint64_t within, const VoxelKey& block_key, const VoxelKey& low,
-                      const VoxelKey& high, F&& f) {
-  // The part of the 4³ bits that lies in the box, axis by axis.
-  std::array<int, 3> from, to;
-  for (int a = 0; a < 3; ++a) {
-    from[a] = std::max(low[a] - 4 * block_key[a], 0);
-    to[a] = std::min(high[a] - 4 * block_key[a], 3);
-    if (from[a] > to[a]) return;
-  }
-  const auto ones = [](int count) { return (std::uint64_t{1} << count) - 1; };  // count < 64
-  const std::uint64_t row = (ones(to[2] - from[2] + 1) << from[2]) * 0x1111u;                       // z, in four rows
-  const std::uint64_t slab = row & (ones(4 * (to[1] - from[1] + 1)) << (4 * from[1])) & 0xffffu;    // y
-  const std::uint64_t cube = slab * 0x0001000100010001u;                                           // in four slabs
-  const std::uint64_t in_x = to[0] - from[0] == 3 ? ~std::uint64_t{0} : ones(16 * (to[0] - from[0] + 1)) << (16 * from[0]);
-  for (std::uint64_t bits = within & cube & in_x; bits != 0; bits &= bits - 1)
-    f(static_cast<int>(block.first + count_bits(block.mask & ((bits & -bits) - 1))));
-}
-
 template <class Bits, class F>
 void VoxelGrid::visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) const {
   const VoxelKey& key = keys[voxel];
-  const VoxelKey low = {key[0] - reach, key[1] - reach, key[2] - reach};
-  const VoxelKey high = {key[0] + reach, key[1] + reach, key[2] + reach};
+  const auto& slices = kSlices[std::min(reach, kMostReach)];
+  const auto &x = slices[0][key[0] & 3], &y = slices[1][key[1] & 3], &z = slices[2][key[2] & 3];
+  const VoxelKey* const block_key = block_table_.keys().data();
+  const VoxelKey home_key = block_key[block_of_[voxel]];
   const Block& home = blocks_[block_of_[voxel]];
-  const std::vector<std::uint32_t>& links = linked_[block_of_[voxel] / kRun];
-  const std::uint32_t end = home.ring[std::min((reach + 3) / 4, kRings) + 1];
+  assert(rings_within(reach) <= home.rings);
+  const std::uint32_t* const links = linked_[block_of_[voxel] / kRun].data();
+  const std::uint32_t end = home.ring[rings_within(reach) + 1];
   for (std::uint32_t l = home.ring[0]; l < end; ++l) {
     const std::uint32_t b = links[l];
-    if (const std::uint64_t within = bits(b); within != 0)
-      visit(blocks_[b], within, block_table_.keys()[b], low, high, f);
+    const VoxelKey& k = block_key[b];
+    std::uint64_t found = bits(b) & x[k[0] - home_key[0] + kRings] & y[k[1] - home_key[1] + kRings] & z[k[2] - home_key[2] + kRings];
+    for (; found != 0; found &= found - 1)
+      f(static_cast<int>(blocks_[b].first + count_bits(blocks_[b].mask & ((found & -found) - 1))));
   }
 }
 

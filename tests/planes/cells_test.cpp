@@ -10,7 +10,7 @@
 namespace unseen::planes {
 namespace {
 
-Cells cells_of(const VoxelGrid& grid, const Space& space = {}, int threads = 2) {
+Cells cells_of(VoxelGrid grid, const Space& space = {}, int threads = 2) {
   Context context;
   context.threads = threads;
   return estimate_normals(grid, space, context);

@@ -98,7 +98,7 @@ TEST_P(RealisticProblems, AreSolvedWithinOnePercentOfCbc) {
   if (GetParam().share > 0) synth.share = GetParam().share;
   Context context;
   const SynthScene scene = make_scene(synth, context);
-  const VoxelGrid grid = test::grid_of(scene.cloud, 0.5 * GetParam().scale);
+  VoxelGrid grid = test::grid_of(scene.cloud, 0.5 * GetParam().scale);
   const Cells cells = estimate_normals(grid, {}, context);
   const Patches patches = segment(grid, cells, {}, radians(15), context);
   std::vector<int> members;  // few enough for CBC to finish in seconds
@@ -127,7 +127,7 @@ TEST(SelectFrames, StatesItsOwnEnergyAndBound) {
   synth.points = 30'000;
   Context context;
   const SynthScene scene = make_scene(synth, context);
-  const VoxelGrid grid = test::grid_of(scene.cloud, 0.04);
+  VoxelGrid grid = test::grid_of(scene.cloud, 0.04);
   const Cells cells = estimate_normals(grid, {}, context);
   const Patches patches = segment(grid, cells, {}, radians(15), context);
   const AngleSet angles = make_angles({radians(90)});
@@ -160,7 +160,7 @@ TEST(SelectFrames, FewerFramesAsLambdaFalls) {
   synth.points = 30'000;
   Context context;
   const SynthScene scene = make_scene(synth, context);
-  const VoxelGrid grid = test::grid_of(scene.cloud, 0.04);
+  VoxelGrid grid = test::grid_of(scene.cloud, 0.04);
   const Cells cells = estimate_normals(grid, {}, context);
   const Patches patches = segment(grid, cells, {}, radians(15), context);
   std::size_t last = 0;
