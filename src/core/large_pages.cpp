@@ -5,14 +5,44 @@
 #include <sys/mman.h>
 
 #include <cstdint>
+#include <fstream>
+#include <string>
 
 namespace unseen {
+namespace {
 
-void prefer_large_pages(void* begin, std::size_t bytes) {
-  constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
-  const auto from = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t first = (from + kPage - 1) & ~(kPage - 1), last = (from + bytes) & ~(kPage - 1);
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+constexpr std::size_t kPage = std::size_t{1} << 21;
+
+std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) & ~(kPage - 1); }
+
+}  // namespace
+
+bool has_large_pages() {
+#ifdef __SANITIZE_ADDRESS__
+  return false;  // the sanitizer watches only what it allocated itself
+#else
+  static const bool offered = [] {
+    std::ifstream file("/sys/kernel/mm/transparent_hugepage/enabled");
+    std::string line;
+    return std::getline(file, line) && line.find("[never]") == std::string::npos;
+  }();
+  return offered;
+#endif
 }
+
+void* take_large_pages(std::size_t bytes) {
+  const std::size_t size = whole_pages(bytes);
+  void* const taken = mmap(nullptr, size + kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (taken == MAP_FAILED) throw std::bad_alloc();
+  // A large page starts at a multiple of its size: what lies before and behind goes back.
+  char* const from = static_cast<char*>(taken);
+  char* const first = reinterpret_cast<char*>(whole_pages(reinterpret_cast<std::uintptr_t>(from)));
+  if (first != from) munmap(from, static_cast<std::size_t>(first - from));
+  if (const std::size_t behind = kPage - static_cast<std::size_t>(first - from); behind > 0) munmap(first + size, behind);
+  madvise(first, size, MADV_HUGEPAGE);
+  return first;
+}
+
+void return_large_pages(void* begin, std::size_t bytes) { munmap(begin, whole_pages(bytes)); }
 
 }  // namespace unseen

@@ -88,7 +88,7 @@ Reach find_reach(const Model& model, const VoxelGrid& grid, const Cells& cells, 
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     for (const int i : model.parts[p].cells) plane_of_cell[i] = static_cast<int>(p);
   const std::vector<int> plane_of_block = grid.labels_of_blocks(plane_of_cell);
-  std::vector<VoxelReach> lists(grid.size());
+  LargeVector<VoxelReach> lists(grid.size());
   parallel_blocks(context, grid.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<Support> near;
     std::vector<int> met;

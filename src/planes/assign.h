@@ -29,7 +29,7 @@ struct Reach {
   /// around here (+1, −1), or 0 if on both.
   std::vector<std::int8_t> side;
   std::vector<std::uint32_t> first_side;
-  std::vector<double> tolerance;  ///< m, per voxel: a point farther than this has no plane
+  LargeVector<double> tolerance;  ///< m, per voxel: a point farther than this has no plane
   bool use_point_normals = false;
 };
 

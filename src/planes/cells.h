@@ -10,10 +10,10 @@ namespace unseen::planes {
 
 /// What is known of the surface in each voxel, parallel to VoxelGrid::keys.
 struct Cells {
-  std::vector<Vec3> normal;       ///< unit length, sign arbitrary; zero where no orientation is reliable
-  std::vector<double> variation;  ///< λ₀/(λ₀+λ₁+λ₂) of the neighbourhood, 0 = flat; 1 where there is no normal
-  std::vector<double> tolerance;  ///< m, the local scale: ρ, or more with an adaptive scale
-  std::vector<double> reach;      ///< m, how far apart neighbours may be: more than the scale where sampling is sparse
+  LargeVector<Vec3> normal;       ///< unit length, sign arbitrary; zero where no orientation is reliable
+  LargeVector<double> variation;  ///< λ₀/(λ₀+λ₁+λ₂) of the neighbourhood, 0 = flat; 1 where there is no normal
+  LargeVector<double> tolerance;  ///< m, the local scale: ρ, or more with an adaptive scale
+  LargeVector<double> reach;      ///< m, how far apart neighbours may be: more than the scale where sampling is sparse
 };
 
 constexpr double kBeyondReach = 1.3;  ///< of the reach: no neighbours are asked for that are farther away

@@ -31,14 +31,14 @@ static_assert(sizeof(Cell) == 64);
 
 CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
                       Context& context) {
-  std::vector<std::pair<double, int>> order;  // variation, voxel
+  LargeVector<std::pair<double, int>> order;  // variation, voxel
   for (std::size_t i = 0; i < grid.size(); ++i)
     if (!cells.normal[i].isZero()) order.emplace_back(cells.variation[i], static_cast<int>(i));
   std::sort(order.begin(), order.end());
 
   const double cos_angle = std::cos(angle);
-  std::vector<Cell> cell;
-  reserve_large(cell, grid.size());
+  LargeVector<Cell> cell;
+  cell.reserve(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i)
     cell.push_back({grid.moments[i].mean, cells.normal[i], cells.reach[i], cells.tolerance[i]});
   VoxelSet open = grid.empty_set();  // neither taken by a region nor in the one that grows

@@ -79,7 +79,7 @@ bool is_of_depth(const std::vector<Probe>& probes, const Vec3& axis, const Space
 }
 
 /// The levels of points along an axis, if much of them lie on values that stand out among those `least` (m) away and less.
-std::optional<Levels> find_levels(const std::vector<Vec3>& points, const Vec3& axis, double least) {
+std::optional<Levels> find_levels(const LargeVector<Vec3>& points, const Vec3& axis, double least) {
   const std::size_t every = points.size() / kMostLookedAt + 1;
   std::vector<double> along;
   for (std::size_t i = 0; i < points.size(); i += every) along.push_back(axis.dot(points[i]));

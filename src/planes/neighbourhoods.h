@@ -20,7 +20,7 @@ class SampleTree {
 
  private:
   struct Sample {
-    const std::vector<Vec3>& points;
+    const LargeVector<Vec3>& points;
     std::size_t kdtree_get_point_count() const { return points.size(); }
     double kdtree_get_pt(std::size_t i, std::size_t a) const { return points[i][a]; }
     template <class Box>

@@ -98,7 +98,7 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     Vec3 normal;
     double reach;  // m
   };
-  std::vector<std::vector<Member>> members(coarse.size());
+  LargeVector<std::vector<Member>> members(coarse.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const int patch = patch_of_cell[i];
     if (patch < 0) continue;

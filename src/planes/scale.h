@@ -17,8 +17,8 @@ struct Survey {
   Box within;                                    ///< points outside lie far from all others: they are left out
   std::size_t without_normal = 0;                ///< finite points whose normal has no usable length
   std::vector<bool> duplicate;  ///< per point: a twin of one that stays; empty if there are none
-  std::vector<Vec3> sample;     ///< an even share of the finite points, chosen by their coordinates alone
-  std::vector<Vec3f> sample_normals;  ///< of the sample, if the source has normals
+  LargeVector<Vec3> sample;     ///< an even share of the finite points, chosen by their coordinates alone
+  LargeVector<Vec3f> sample_normals;  ///< of the sample, if the source has normals
   double share = 1;             ///< how many of the distinct points the sample holds
 
   bool has_normals() const { return !sample_normals.empty(); }

@@ -41,8 +41,8 @@ void find_duplicates(PointSource& source, Survey& survey) {
     std::uint32_t point;
     auto operator<=>(const Hashed&) const = default;
   };
-  std::vector<Hashed> order;
-  reserve_large(order, survey.finite);
+  LargeVector<Hashed> order;
+  order.reserve(survey.finite);
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     for (std::size_t i = 0; i < block.size(); ++i)
       if (block.positions[i].allFinite())
@@ -59,9 +59,9 @@ void find_duplicates(PointSource& source, Survey& survey) {
 
 /// The box that holds all but a hundredth of the sample at either end of each axis, grown on all sides by ten
 /// times its longest edge.
-Box neighbourhood(const std::vector<Vec3>& sample) {
+Box neighbourhood(const LargeVector<Vec3>& sample) {
   constexpr double kAtEachEnd = 0.01, kFar = 10.0;
-  std::vector<double> along(sample.size());
+  LargeVector<double> along(sample.size());
   const auto rank = static_cast<std::ptrdiff_t>(kAtEachEnd * static_cast<double>(sample.size()));
   Box box;
   for (int a = 0; a < 3; ++a) {
@@ -115,7 +115,7 @@ struct Sampled {
 /// smallest.
 class EvenSample {
  public:
-  explicit EvenSample(std::size_t expected) { reserve_large(places_, std::min(expected, kSample + 1)); }
+  explicit EvenSample(std::size_t expected) { places_.reserve(std::min(expected, kSample + 1)); }
   bool wants(std::uint64_t hash) const { return zeros_ == 0 || hash >> (64 - zeros_) == 0; }
   void add(const Sampled& x) {
     std::uint32_t& slot = slot_of(x.hash);
@@ -132,7 +132,7 @@ class EvenSample {
   }
   bool twins() const { return twins_; }
   bool has_all() const { return zeros_ == 0; }
-  std::vector<Sampled> by_hash() && {
+  LargeVector<Sampled> by_hash() && {
     std::sort(places_.begin(), places_.end(),
               [](const Sampled& a, const Sampled& b) { return a.hash < b.hash; });
     return std::move(places_);
@@ -160,9 +160,9 @@ class EvenSample {
 
   int zeros_ = 0;
   bool twins_ = false;
-  std::vector<Sampled> places_;
-  std::vector<std::uint32_t> slots_ =
-      std::vector<std::uint32_t>(4096);  ///< a power of two; index + 1 into places_, 0 = free
+  LargeVector<Sampled> places_;
+  LargeVector<std::uint32_t> slots_ =
+      LargeVector<std::uint32_t>(4096);  ///< a power of two; index + 1 into places_, 0 = free
 };
 
 }  // namespace
@@ -193,8 +193,9 @@ Survey survey(PointSource& source, Context& context) {
     s.points += block.size();
   });
   const bool twins = sample.twins(), no_duplicates = sample.has_all() && !twins;
-  const std::vector<Sampled> places = std::move(sample).by_hash();
-  reserve_large(s.sample, places.size());
+  const LargeVector<Sampled> places = std::move(sample).by_hash();
+  s.sample.reserve(places.size());
+  if (normals) s.sample_normals.reserve(places.size());
   for (const Sampled& x : places) {
     s.sample.push_back(x.position);
     if (normals) s.sample_normals.push_back(x.normal);

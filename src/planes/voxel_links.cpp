@@ -31,7 +31,7 @@ std::size_t first_at(const SortedBlocks& blocks, std::uint64_t column, std::int3
 
 /// Blocks are sorted, so that the first block of each column beside one, as low as any may ask for, moves only forward with it.
 void VoxelGrid::link_blocks(const std::vector<int>& rings_of_block, const Context& context) {
-  const std::vector<VoxelKey>& key = block_table_.keys();
+  const LargeVector<VoxelKey>& key = block_table_.keys();
   if (key.empty()) return;
   SortedBlocks sorted;
   for (const VoxelKey& k : key) {
@@ -42,7 +42,7 @@ void VoxelGrid::link_blocks(const std::vector<int>& rings_of_block, const Contex
   linked_.resize((key.size() + kRun - 1) / kRun);
   parallel_blocks(context, linked_.size(), 1, [&](std::size_t run, std::size_t run_end) {
     std::array<std::vector<std::uint32_t>, kRings + 1> found;
-    std::vector<std::uint32_t> links;
+    LargeVector<std::uint32_t> links;
     std::vector<std::size_t> first(side * side);
     for (; run < run_end; ++run) {
       links.clear();

@@ -92,7 +92,7 @@ void VoxelBuilder::add(const PointCloud& block, const std::vector<bool>& skip, s
 
 void VoxelBuilder::reserve(std::size_t voxels) {
   table_.reserve(voxels);
-  reserve_large(sums_, voxels);
+  sums_.reserve(voxels);
 }
 
 void VoxelBuilder::join(const VoxelBuilder& other) {
@@ -148,14 +148,10 @@ constinit const VoxelGrid::Slices VoxelGrid::kSlices = [] {
 VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context)
     : edge(builder.edge()), tolerance(2.0 * builder.edge()), within(builder.within()) {
   const std::vector<int> place_of = place(builder.keys(), context);
-  reserve_large(moments, size());
   moments.resize(size());
   bool any_normals = false;
   for (const VoxelSums& s : builder.sums()) any_normals = any_normals || (s.normal[0] + s.normal[3] + s.normal[5] > 0);
-  if (any_normals) {
-    reserve_large(normals, size());
-    normals.resize(size());
-  }
+  if (any_normals) normals.resize(size());
   const double unit = edge / kSteps;
   for (std::size_t i = 0; i < size(); ++i) {
     const VoxelKey& key = builder.keys()[i];
@@ -171,7 +167,7 @@ VoxelGrid::VoxelGrid(const VoxelBuilder& builder, const Context& context)
   }
 }
 
-std::vector<int> VoxelGrid::place(const std::vector<VoxelKey>& unordered, const Context& context) {
+std::vector<int> VoxelGrid::place(const LargeVector<VoxelKey>& unordered, const Context& context) {
   KeyTable found;
   std::vector<std::uint64_t> masks;
   std::vector<std::uint32_t> found_of;
@@ -247,7 +243,7 @@ int VoxelGrid::find(const VoxelKey& key) const {
 }
 
 VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) const {
-  std::vector<VoxelKey> up;
+  LargeVector<VoxelKey> up;
   up.reserve(size());
   for (const VoxelKey& k : keys) up.push_back({k[0] >> 1, k[1] >> 1, k[2] >> 1});
   VoxelGrid grid;
@@ -255,7 +251,6 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   grid.tolerance = tolerance;
   grid.within = within;
   parent = grid.place(up, context);
-  reserve_large(grid.moments, grid.size());
   grid.moments.resize(grid.size());
   for (std::size_t i = 0; i < size(); ++i) grid.moments[parent[i]] += moments[i];
   return grid;

@@ -38,19 +38,19 @@ struct VoxelSums {
 /// A growing list of distinct keys, found again in constant time (open addressing).
 class KeyTable {
  public:
-  const std::vector<VoxelKey>& keys() const { return keys_; }
+  const LargeVector<VoxelKey>& keys() const { return keys_; }
   /// Index of a key, or −1.
   int find(const VoxelKey& key) const;
   /// Index of a key, which is appended if it is new.
   std::size_t insert(const VoxelKey& key);
-  void reserve(std::size_t keys) { reserve_large(keys_, keys); }
+  void reserve(std::size_t keys) { keys_.reserve(keys); }
 
  private:
   std::size_t slot(const VoxelKey& key) const;
   void grow();
 
-  std::vector<VoxelKey> keys_;
-  std::vector<std::uint32_t> slots_;  ///< index + 1 into keys_, 0 = free; at most half are taken
+  LargeVector<VoxelKey> keys_;
+  LargeVector<std::uint32_t> slots_;  ///< index + 1 into keys_, 0 = free; at most half are taken
 };
 
 /// Gathers the points of a box into voxels. Filled tile by tile; two builders of one grid can be joined exactly.
@@ -69,8 +69,8 @@ class VoxelBuilder {
   double edge() const { return edge_; }
   const Box& within() const { return within_; }
   std::size_t outside() const { return outside_; }  ///< finite points that are not in the box
-  const std::vector<VoxelKey>& keys() const { return table_.keys(); }
-  const std::vector<VoxelSums>& sums() const { return sums_; }
+  const LargeVector<VoxelKey>& keys() const { return table_.keys(); }
+  const LargeVector<VoxelSums>& sums() const { return sums_; }
 
  private:
   VoxelSums& sums_of(const VoxelKey& key);
@@ -79,7 +79,7 @@ class VoxelBuilder {
   Box within_;
   std::size_t outside_ = 0;
   KeyTable table_;
-  std::vector<VoxelSums> sums_;
+  LargeVector<VoxelSums> sums_;
 };
 
 /// Some of a grid's voxels, as bits of its blocks: where few are left, most blocks are passed over at a glance.
@@ -131,9 +131,9 @@ class VoxelGrid {
   double edge = 0;
   double tolerance = 0;  ///< m, how far a plane's points may lie from it; twice the edge unless something else is set
   Box within;  ///< what lies outside is in no voxel
-  std::vector<VoxelKey> keys;
-  std::vector<Moments> moments;
-  std::vector<Eigen::Matrix3f> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
+  LargeVector<VoxelKey> keys;
+  LargeVector<Moments> moments;
+  LargeVector<Eigen::Matrix3f> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
 
  private:
   static constexpr int kRings = kMostReach / 4;  ///< how many blocks away neighbours are linked, at most
@@ -149,7 +149,7 @@ class VoxelGrid {
     std::array<std::uint32_t, kRings + 2> ring{};  ///< [ring[r]…ring[r+1]) of its run's links: occupied blocks r blocks away
   };
   /// Lays out the voxels with these keys (some may be equal) and returns the index of each.
-  std::vector<int> place(const std::vector<VoxelKey>& unordered, const Context& context);
+  std::vector<int> place(const LargeVector<VoxelKey>& unordered, const Context& context);
   void link_blocks(const std::vector<int>& rings_of_block, const Context& context);
   /// A voxel's place in the mask of its block.
   static std::uint64_t bit_of(const VoxelKey& k) {
@@ -159,10 +159,10 @@ class VoxelGrid {
   void visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) const;
 
   KeyTable block_table_;
-  std::vector<Block> blocks_;              ///< parallel to block_table_.keys()
-  static constexpr std::size_t kRun = 1024;         ///< blocks that are linked together
-  std::vector<std::vector<std::uint32_t>> linked_;  ///< of each run, indices of blocks
-  std::vector<std::uint32_t> block_of_;    ///< of each voxel
+  LargeVector<Block> blocks_;              ///< parallel to block_table_.keys()
+  static constexpr std::size_t kRun = 4096;         ///< blocks that are linked together
+  std::vector<LargeVector<std::uint32_t>> linked_;  ///< of each run, indices of blocks
+  LargeVector<std::uint32_t> block_of_;    ///< of each voxel
 };
 
 /// Reads the source once and sums its points within a box into voxels of the given edge (m).

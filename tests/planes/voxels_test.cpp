@@ -26,7 +26,7 @@ PointCloud sample(std::size_t count, std::uint64_t seed, const Vec3& origin = Ve
 }
 
 template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+bool same_bytes(const LargeVector<T>& a, const LargeVector<T>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
