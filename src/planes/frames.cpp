@@ -107,6 +107,13 @@ double tilt_chi2(const Patch& patch, const Vec3& normal) {
   return tu * tu / patch.doubt_u + tv * tv / patch.doubt_v;
 }
 
+double noise_chi2(const Patch& patch, const Vec3& normal) {
+  const PlaneFit& fit = patch.fit;
+  const double across = std::max(std::abs(normal.dot(fit.normal)), 1e-9);
+  const auto chi2 = [&](double tilt, double variance, double spread) { return tilt * tilt / tilt_noise(patch.moments, fit, variance, spread); };
+  return chi2(normal.dot(fit.u) / across, patch.variance_u, fit.spread_u) + chi2(normal.dot(fit.v) / across, patch.variance_v, fit.spread_v);
+}
+
 double data_cost(const Patch& patch, const Vec3& normal) {
   const double x = tilt_chi2(patch, normal) / 9.0;
   return 2.0 * x * x * x / (x * x + 1.0);

@@ -47,6 +47,9 @@ double irregularity(const OrientationFrame& a, const OrientationFrame& b, const 
 /// χ²: by how many standard errors, squared, a patch's fitted normal differs from `normal`.
 double tilt_chi2(const Patch& patch, const Vec3& normal);
 
+/// The same by noise alone.
+double noise_chi2(const Patch& patch, const Vec3& normal);
+
 /// D: what it costs to give a patch the orientation `normal` (Eq. 3.7 in terms of significance): near zero
 /// within a standard error, 1 at three, and growing with the squared tilt beyond.
 double data_cost(const Patch& patch, const Vec3& normal);

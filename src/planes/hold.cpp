@@ -16,9 +16,8 @@ constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfac
 /// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.
 double turned_off(const Surface& surface, const Vec3& n) {
   const PlaneFit& fit = surface.support.fit;
+  if (noise_chi2(surface.support, n) < kCertain) return 0.0;
   const double across = std::max(std::abs(n.dot(fit.normal)), 1e-9), u = n.dot(fit.u) / across, v = n.dot(fit.v) / across;
-  const auto chi2 = [&](double tilt, double variance, double spread) { return tilt * tilt / tilt_noise(surface.support.moments, fit, variance, spread); };
-  if (chi2(u, surface.support.variance_u, fit.spread_u) + chi2(v, surface.support.variance_v, fit.spread_v) < kCertain) return 0.0;
   return std::hypot(u * fit.spread_u, v * fit.spread_v);
 }
 

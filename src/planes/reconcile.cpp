@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 #include "planes/relate.h"
 
@@ -52,6 +53,14 @@ int equivalent_group(const Evidence& p, const Group& group, const std::vector<Gr
   return -1;
 }
 
+/// Appends a group to the nodes, with its relations to them.
+void relate_to_earlier(const Evidence& p, Group group, std::vector<Group>& nodes, std::vector<Constraint>& constraints) {
+  std::vector<Constraint> rows;
+  relate(p, group, nodes, rows);
+  constraints.insert(constraints.end(), rows.begin(), rows.end());
+  nodes.push_back(std::move(group));
+}
+
 }  // namespace
 
 Reconciled reconcile(const Selection& selection, const Patches& patches, const std::vector<Vec3>& locals,
@@ -73,12 +82,17 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
       nodes[g].weight += group.weight;
       continue;
     }
-    std::vector<Constraint> rows;
-    relate(p, group, nodes, rows);
-    result.constraints.insert(result.constraints.end(), rows.begin(), rows.end());
-    result.frames.push_back(group.frame);
-    nodes.push_back(std::move(group));
+    relate_to_earlier(p, std::move(group), nodes, result.constraints);
   }
+  if (!space.is_2d() && part_by_chance(p, patches.adjoining, nodes)) {
+    std::stable_sort(nodes.begin(), nodes.end(), [](const Group& a, const Group& b) { return a.weight > b.weight; });
+    result.constraints.clear();
+    for (Group& group : std::exchange(nodes, {})) {
+      group.frame = fit_constrained(p, group.frame, group.members, {}, {});
+      relate_to_earlier(p, std::move(group), nodes, result.constraints);
+    }
+  }
+  for (const Group& node : nodes) result.frames.push_back(node.frame);
   result.frame_of_patch.assign(patches.patches.size(), -1);
   result.local_of_patch.assign(patches.patches.size(), -1);
   for (std::size_t g = 0; g < nodes.size(); ++g)

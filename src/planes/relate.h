@@ -38,6 +38,14 @@ double chi2(const Evidence& known, const OrientationFrame& frame, const std::vec
 OrientationFrame fit_constrained(const Evidence& known, OrientationFrame frame, const std::vector<Member>& members,
                                  const std::vector<Constraint>& constraints, const std::vector<Group>& earlier);
 
+/// Log of how much likelier the patches' normals are if they share the group's frame, whatever its rotation, than if each lay anyhow. A single
+/// patch has none.
+double log_evidence(const Evidence& known, const Group& group);
+
+/// Gives patches that their group would turn off their own points a group of their own, where chance explains that they suit the frame: among
+/// many frames each patch is near a direction of some. Patches that adjoin come together more easily. True if there are any.
+bool part_by_chance(const Evidence& known, const std::vector<std::pair<int, int>>& adjoining, std::vector<Group>& groups);
+
 /// Adds each relation of a group to an earlier one, which its members do not contradict significantly and which is no chance, to those
 /// it has; its frame is turned along.
 void relate(const Evidence& known, Group& group, const std::vector<Group>& earlier, std::vector<Constraint>& constraints);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "planes/relate.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kOff = 25.0;  // χ² against noise alone: patches that a frame turns off their fit by less are well where they are
+constexpr double kAnyTurn = 5.0;  // rad: a normal prior of this deviation about each axis is as good as any rotation alike, where one axis is left open
+constexpr double kAnyTilt = 1.0;  // rad: larger doubts say no more
+
+/// How often a patch would be matched with some frame by chance, as a logarithm: with one of its neighbours' frames, or with any of the scene.
+std::vector<double> log_choices(const Evidence& p, const std::vector<std::set<int>>& adjoining, const std::vector<int>& group_of, std::size_t groups,
+                                const std::vector<Member>& members) {
+  std::vector<double> choices;
+  for (const Member& m : members) {
+    std::set<int> near;
+    for (const int other : adjoining[m.patch]) near.insert(group_of[other]);
+    const bool neighbour = near.count(group_of[m.patch]) > 0;
+    choices.push_back(std::log(static_cast<double>(p.locals.size() * (neighbour ? near.size() : groups))));
+  }
+  return choices;
+}
+
+}  // namespace
+
+double log_evidence(const Evidence& p, const Group& group) {
+  const OrientationFrame frame = fit_constrained(p, group.frame, group.members, {}, {});
+  double sum = 0;
+  Mat3 information = Mat3::Identity() / (kAnyTurn * kAnyTurn);
+  for (const Member& m : group.members) {
+    const Patch& patch = p.patch(m);
+    const double u = std::min(patch.doubt_u, kAnyTilt * kAnyTilt), v = std::min(patch.doubt_v, kAnyTilt * kAnyTilt);
+    sum -= 0.5 * std::log(u * v);
+    for (const TiltResidual& r : tilt_residuals(patch.fit, frame.direction(p.locals[m.local]), u, v)) {
+      sum -= 0.5 * r.weight * r.value * r.value;
+      information += r.weight * r.jacobian * r.jacobian.transpose();
+    }
+  }
+  return sum + std::log(std::pow(2 * kPi, 1.5) / (8 * kPi * kPi)) - 0.5 * std::log(information.determinant());
+}
+
+bool part_by_chance(const Evidence& p, const std::vector<std::pair<int, int>>& adjoining_pairs, std::vector<Group>& groups) {
+  std::vector<std::set<int>> adjoining(p.patches.size());
+  for (const auto& [a, b] : adjoining_pairs) adjoining[a].insert(b), adjoining[b].insert(a);
+  std::vector<int> group_of(p.patches.size());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Member& m : groups[g].members) group_of[m.patch] = static_cast<int>(g);
+  const std::size_t count = groups.size();
+  for (std::size_t g = 0; g < count; ++g) {
+    while (groups[g].members.size() > 1) {
+      const std::vector<double> choices = log_choices(p, adjoining, group_of, count, groups[g].members);
+      const auto supported = [&](const Group& group, const std::vector<double>& of_members) {
+        double sum = 0, most = 0;
+        for (const double c : of_members) sum += c, most = std::max(most, c);
+        return log_evidence(p, group) - (sum - most);  // one is where it is, and the others come to it
+      };
+      const OrientationFrame frame = fit_constrained(p, groups[g].frame, groups[g].members, {}, {});
+      double best = supported(groups[g], choices);
+      std::size_t parts = groups[g].members.size();
+      for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
+        const Member m = groups[g].members[i];
+        if (noise_chi2(p.patch(m), frame.direction(p.locals[m.local])) < kOff) continue;
+        Group without = groups[g];
+        std::vector<double> others = choices;
+        without.members.erase(without.members.begin() + static_cast<std::ptrdiff_t>(i));
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+        if (const double e = supported(without, others); e > best) best = e, parts = i;
+      }
+      if (parts == groups[g].members.size()) break;
+      const int patch = groups[g].members[parts].patch;
+      groups[g].members.erase(groups[g].members.begin() + static_cast<std::ptrdiff_t>(parts));
+      groups[g].weight -= p.patches[patch].area;
+      group_of[patch] = static_cast<int>(groups.size());
+      groups.push_back({open_frame(p.patches[patch].fit.normal, p.space), {{patch, 0}}, p.patches[patch].area});
+    }
+  }
+  return groups.size() > count;
+}
+
+}  // namespace unseen::planes
