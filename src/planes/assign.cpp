@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kLeastSine = 0.17;  // planes at less than 10° have no edge to speak of
 constexpr double kToss = 2.0;        // times the noise: points nearer to an edge may be either plane's
+constexpr double kOver = 6.0, kOn = 0.05;  // times the noise, or of the tolerance: what is farther lies over a plane
 constexpr double kClear = 0.25;      // of the scale: what lies nearer to a plane is on neither side of it
 constexpr int kBeyondEnd = 2, kContradicted = 4;  // ranks of candidates, worse than what their normals say
 constexpr double kStray = 0.1;       // share of a plane that may lie on the other side all the same
@@ -175,7 +176,7 @@ void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& 
   });
 }
 
-void drop_near_edges(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
+void drop_doubtful(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
                      std::span<int> plane_of_point, const Context& context) {
   parallel_blocks(context, block.size(), 1 << 11, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -184,6 +185,7 @@ void drop_near_edges(const Reach& reach, const VoxelGrid& grid, const PointCloud
       const Vec3& p = block.positions[i];
       const int voxel = grid.find(grid.key_of(p));
       const Plane& own = reach.planes[plane];
+      if (std::abs(own.signed_distance(p)) > std::max(kOver * reach.noise[plane], kOn * reach.tolerance[voxel])) plane_of_point[i] = -1;
       for (std::uint32_t c = reach.first[voxel]; c < reach.first[voxel + 1]; ++c) {
         const int k = reach.candidate[c].plane;
         const Plane& other = reach.planes[k];

@@ -46,9 +46,9 @@ void update_planes(Reach& reach, const Model& model);
 void assign_points(const Reach& reach, const VoxelGrid& grid, const PointCloud& block, bool only_sure,
                    std::span<int> plane_of_point, const Context& context);
 
-/// Takes the plane from points near where it meets another one of their voxel, within twice the noise: whose
-/// they are is a toss-up, and a fit to those that fell to a plane is biased.
-void drop_near_edges(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
+/// Takes the plane from points that would bias a fit to it: those near where it meets another one of their voxel, within twice the noise,
+/// as whose they are is a toss-up, and those farther from it than six times its noise, which lie on or over it.
+void drop_doubtful(const Reach& reach, const VoxelGrid& grid, const PointCloud& block,
                      std::span<int> plane_of_point, const Context& context);
 
 __extension__ using Int128 = __int128;

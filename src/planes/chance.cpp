@@ -37,10 +37,12 @@ double log_evidence(const Evidence& p, const Group& group) {
     const Patch& patch = p.patch(m);
     const double u = std::min(patch.doubt_u, kAnyTilt * kAnyTilt), v = std::min(patch.doubt_v, kAnyTilt * kAnyTilt);
     sum -= 0.5 * std::log(u * v);
+    double chi2 = 0;
     for (const TiltResidual& r : tilt_residuals(patch.fit, frame.direction(p.locals[m.local]), u, v)) {
-      sum -= 0.5 * r.weight * r.value * r.value;
+      chi2 += r.weight * r.value * r.value;
       information += r.weight * r.jacobian * r.jacobian.transpose();
     }
+    sum -= 2 * std::log1p(0.5 * chi2);  // Student's t with two degrees of freedom: of some patches the doubt says too little
   }
   return sum + std::log(std::pow(2 * kPi, 1.5) / (8 * kPi * kPi)) - 0.5 * std::log(information.determinant());
 }
@@ -48,7 +50,7 @@ double log_evidence(const Evidence& p, const Group& group) {
 bool part_by_chance(const Evidence& p, const std::vector<std::pair<int, int>>& adjoining_pairs, std::vector<Group>& groups) {
   std::vector<std::set<int>> adjoining(p.patches.size());
   for (const auto& [a, b] : adjoining_pairs) adjoining[a].insert(b), adjoining[b].insert(a);
-  std::vector<int> group_of(p.patches.size());
+  std::vector<int> group_of(p.patches.size(), -1);
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Member& m : groups[g].members) group_of[m.patch] = static_cast<int>(g);
   const std::size_t count = groups.size();

@@ -21,12 +21,12 @@ constexpr double kNoiseShare = 0.3;       // but by no more of its noise, or the
 /// Variance (rad²) of the tilt that a least-squares plane has along `axis`. Residuals are summed by blocks of a
 /// grid over the patch, so that noise that is correlated over up to a block's size counts as what it is
 /// (cluster-robust "sandwich" estimate: Liang & Zeger, Biometrika 73, 1986).
-double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis, double spread, double least_noise) {
+double tilt_variance(const VoxelGrid& grid, const Patch& patch, const std::vector<int>& core, const Vec3& axis, double spread, double least_noise) {
   constexpr int kBlocks = 6;
   const PlaneFit& fit = patch.fit;
   std::map<std::pair<int, int>, double> score;  // Σ x·r of each block
   const double su = std::max(fit.spread_u, 1e-300) * 3.5 / kBlocks, sv = std::max(fit.spread_v, 1e-300) * 3.5 / kBlocks;
-  for (const int i : patch.cells) {
+  for (const int i : core) {
     const Moments& m = grid.moments[i];
     const Vec3 d = m.mean - patch.moments.mean;
     const double xr = m.count * axis.dot(d) * fit.normal.dot(d) + axis.dot(m.scatter * fit.normal);
@@ -43,7 +43,7 @@ double tilt_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis
 /// Variance (rad²) of a tilt along `axis` that shows as a wedge: where scans are turned against each other, a surface is thicker at one end
 /// than in the middle, and there than at the other end, and its plane is as uncertain as that angle. What is thick at an end alone has
 /// something else lying there, and what is thick for its width is no surface that scans agree on.
-double wedge_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axis, double spread) {
+double wedge_variance(const VoxelGrid& grid, const Patch& patch, const std::vector<int>& core, const Vec3& axis, double spread) {
   constexpr double kMiddle = 0.5;   // of the spread, to either side
   constexpr double kClearly = 3;    // standard errors
   constexpr double kBetween = 0.2;  // of what the ends differ by: the middle differs from both by as much
@@ -54,7 +54,7 @@ double wedge_variance(const VoxelGrid& grid, const Patch& patch, const Vec3& axi
     double rms() const { return std::sqrt(square / count); }
   };
   std::array<Part, 3> parts;
-  for (const int i : patch.cells) {
+  for (const int i : core) {
     const Moments& m = grid.moments[i];
     const Vec3 d = m.mean - patch.moments.mean;
     const double x = axis.dot(d), r = patch.fit.normal.dot(d);
@@ -155,12 +155,13 @@ double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, 
 Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise) {
   Patch patch;
   patch.cells = std::move(cells);
-  patch.moments = sum_of(grid, patch.cells);
+  const std::vector<int> core = core_of(grid, space, patch.cells);
+  patch.moments = sum_of(grid, core);
   patch.fit = fit_plane(patch.moments, space);
   const PlaneFit& fit = patch.fit;
   patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
-  patch.variance_u = tilt_variance(grid, patch, fit.u, fit.spread_u, least_noise);
-  patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, fit.v, fit.spread_v, least_noise);
+  patch.variance_u = tilt_variance(grid, patch, core, fit.u, fit.spread_u, least_noise);
+  patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, core, fit.v, fit.spread_v, least_noise);
   const auto systematic = [&](double width) {
     const double clutter = std::min(kToleranceShare * grid.tolerance, kNoiseShare * std::max(fit.rms, 2.0 * least_noise));
     const double tilt = kSystematicTilt * kSystematicTilt + std::pow(clutter / width, 2);
@@ -171,7 +172,7 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.systematic_u = systematic(width_u);
   patch.systematic_v = space.is_2d() ? 0.0 : systematic(width_v);  // a line cannot tilt out of its drawing
   const auto doubt = [&](const Vec3& axis, double variance, double width) {
-    return tilt_noise(patch.moments, fit, variance, width) + wedge_variance(grid, patch, axis, width);
+    return tilt_noise(patch.moments, fit, variance, width) + wedge_variance(grid, patch, core, axis, width);
   };
   patch.doubt_u = doubt(fit.u, patch.variance_u, width_u) + patch.systematic_u;
   patch.doubt_v = space.is_2d() ? std::numeric_limits<double>::infinity() : doubt(fit.v, patch.variance_v, width_v) + patch.systematic_v;

@@ -35,6 +35,9 @@ struct Patches {
 
 Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells);
 
+/// Those of a set of voxels that lie on its plane, without what stands on it or hangs over it.
+std::vector<int> core_of(const VoxelGrid& grid, const Space& space, const std::vector<int>& cells);
+
 /// Moments, fit, area and standard errors of a set of voxels. Points along one sweep of a scanner lie exactly in
 /// the sweep's own plane, however noisy they are: no fit counts as better than `least_noise` (m) allows.
 Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise);

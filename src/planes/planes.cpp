@@ -179,7 +179,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     reach = find_reach(model, grid, cells, use_normals, context);
     PlaneSums points(model, result.scale);
     with_planes_of_points(source, reach, grid, true, seen, context, [&](const PointCloud& block, std::size_t first, std::vector<int>& plane) {
-      drop_near_edges(reach, grid, block, plane, context);
+      drop_doubtful(reach, grid, block, plane, context);
       points.add(block, plane, seen.duplicate, first);
     });
     std::vector<Moments> on_surface(model.surfaces.size());

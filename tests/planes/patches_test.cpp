@@ -247,6 +247,21 @@ TEST(MakePatch, TiltVarianceIsThatOfRepeatedScans) {
   EXPECT_LT(stated_v / observed_v, 2.0);
 }
 
+/// A crown that hangs over a roof, no more than the tolerance away, does not turn its plane.
+TEST(MakePatch, WhatHangsOverAPlaneDoesNotTurnIt) {
+  PointCloud cloud;
+  Random random(8);
+  test::add_rectangle(cloud, {0, 0, 0.25}, {8, 0, 0}, {0, 4, 0}, 0.5, 0.02, random);
+  for (int i = 0; i < 30; ++i) cloud.positions.emplace_back(3 + 2 * random.uniform(), 2 * random.uniform(), 0.6 + 0.6 * random.uniform());
+  const VoxelGrid grid = test::grid_of(cloud, 0.6);
+  std::vector<int> all(grid.size());
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_GT(degrees(line_angle(fit_plane(sum_of(grid, all), {}).normal, Vec3::UnitZ())), 1.0);
+  const Patch patch = make_patch(grid, {}, all, 0.0);
+  EXPECT_LT(degrees(line_angle(patch.fit.normal, Vec3::UnitZ())), 0.3);
+  EXPECT_EQ(patch.cells.size(), grid.size());
+}
+
 TEST(Patches, ASweepThatIsFlatByNatureIsNotTrusted) {
   // A scanner's sweep: points along a line, noisy along the ray only, so that they lie exactly in a plane that
   // has nothing to do with the surface.
