@@ -99,23 +99,6 @@ std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, c
   return object;
 }
 
-/// Which points may belong to objects: not of a support, not below the ground nor beyond its end.
-std::vector<int> candidates(const Observation& seen) {
-  std::vector<int> group(seen.points.size(), -1);
-  std::vector<Vec2> outline;
-  for (const Vec3& p : seen.supports.front().outline) outline.push_back(p.head<2>());
-  for (std::size_t i = 0; i < seen.points.size(); ++i) {
-    const Vec3& p = seen.points[i];
-    if (seen.support_of_point[i] >= 0 || seen.supports.front().plane.signed_distance(p) < 0.0) continue;
-    if (!outline.empty() && !inside_outline(outline, p.head<2>(), kOutside)) continue;
-    const bool behind = std::any_of(seen.supports.begin() + 1, seen.supports.end(), [&](const Support& s) {
-      return s.kind == SupportKind::wall && s.plane.signed_distance(p) < -4.0 * seen.graph.sigma[i] && s.plane.signed_distance(p) > -0.1;
-    });
-    if (!behind) group[i] = 0;
-  }
-  return group;
-}
-
 /// Points of equal non-negative group that links connect.
 std::vector<std::vector<int>> components(const Observation& seen, const std::vector<int>& group) {
   std::vector<std::vector<int>> parts;
@@ -131,6 +114,32 @@ std::vector<std::vector<int>> components(const Observation& seen, const std::vec
     parts.push_back(std::move(part));
   }
   return parts;
+}
+
+/// Which points may belong to objects: not of a support, not below the ground. What lies beyond the ground's end is carried by something else,
+/// or hangs over, with most of it above the ground.
+std::vector<int> candidates(const Observation& seen) {
+  std::vector<int> group(seen.points.size(), -1);
+  std::vector<Vec2> outline;
+  for (const Vec3& p : seen.supports.front().outline) outline.push_back(p.head<2>());
+  std::vector<char> beyond(seen.points.size(), 0);
+  for (std::size_t i = 0; i < seen.points.size(); ++i) {
+    const Vec3& p = seen.points[i];
+    if (seen.support_of_point[i] >= 0 || seen.supports.front().plane.signed_distance(p) < 0.0) continue;
+    beyond[i] = !outline.empty() && !inside_outline(outline, p.head<2>(), kOutside);
+    const bool behind = std::any_of(seen.supports.begin() + 1, seen.supports.end(), [&](const Support& s) {
+      return s.kind == SupportKind::wall && s.plane.signed_distance(p) < -4.0 * seen.graph.sigma[i] && s.plane.signed_distance(p) > -0.1;
+    });
+    if (!behind) group[i] = 0;
+  }
+  if (outline.empty()) return group;
+  for (const std::vector<int>& part : components(seen, group)) {
+    const auto out = std::count_if(part.begin(), part.end(), [&](int i) { return beyond[i] != 0; });
+    if (2 * static_cast<std::size_t>(out) < part.size()) continue;
+    for (const int i : part)
+      if (beyond[i] != 0) group[i] = -1;
+  }
+  return group;
 }
 
 /// Too few points, or no farther from the supports than their own noise.

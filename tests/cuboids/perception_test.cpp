@@ -148,6 +148,20 @@ TEST(Boxes, StackedOnesAreSeparated) {
   }
 }
 
+TEST(Boxes, OneThatHangsOverTheEdgeOfATableIsWhole) {
+  Scene scene;
+  scene.ground_end = 1.0;
+  scene.boxes = {upright(0.05, 0.97, 0, {0.15, 0.2, 0.1}, 10), upright(-0.3, 0.8, 0, {0.1, 0.1, 0.1}, 30)};
+  Scene with_floor = scene;  // below the table
+  with_floor.boxes.push_back(upright(0, 4, -0.8, {8, 8, 0.1}, 0));
+  for (const std::uint64_t seed : {1, 2}) {
+    const Perceived p = perceive(render(with_floor, seed));
+    ASSERT_EQ(p.cuboids.size(), 2u);
+    ASSERT_FALSE(p.seen.supports[0].outline.empty());
+    for (const OrientedBox& truth : scene.boxes) EXPECT_LT(size_error(nearest(p.fitted, truth.center).box, truth), 0.008) << seed;
+  }
+}
+
 TEST(Boxes, OneSplitByAnOccluderGivesTwoPartsOfOneTurn) {
   Scene scene;
   scene.boxes = {upright(0.0, 0.9, 0, {0.4, 0.1, 0.1}, 8), upright(0.0, 0.6, 0, {0.1, 0.05, 0.3}, 8)};
