@@ -214,6 +214,21 @@ TEST(PlaneSums, AreThePointsMomentsInAnyOrder) {
   }
 }
 
+TEST(DropDoubtful, WhatLiesFartherOffAPlaneThanItsNoise) {
+  PointCloud cloud;
+  for (const double z : {0.0, 0.05, 0.07, -0.05, -0.2, 0.4}) cloud.positions.emplace_back(0.3, 0.2, z);
+  const VoxelGrid grid = test::grid_of(cloud, 0.5);
+  Reach reach;
+  reach.planes = {{Vec3::UnitZ(), 0.0}};
+  reach.noise = {0.01};
+  reach.tolerance.assign(grid.size(), 1.0);
+  for (std::size_t i = 0; i <= grid.size(); ++i) reach.first.push_back(static_cast<std::uint32_t>(i));
+  reach.candidate.assign(grid.size(), {0, NormalVerdict::agrees});
+  std::vector<int> plane(cloud.size(), 0);
+  drop_doubtful(reach, grid, cloud, plane, Context());
+  EXPECT_EQ(plane, (std::vector<int>{0, 0, -1, 0, -1, -1}));
+}
+
 TEST(PlaneSums, LeavesOutWhatIsSkippedOrHasNoPlane) {
   const Scene s = parallel_and_crossing(0.01);
   PlaneSums sums(s.model, kScale);
