@@ -45,7 +45,8 @@ TEST(LargePages, GoBackToTheSystem) {
 
 TEST(LargePages, TooMuchIsAnError) {
   EXPECT_THROW(LargePages<double>().allocate(static_cast<std::size_t>(-1) / 4), std::bad_alloc);
-  if (has_large_pages()) EXPECT_THROW(LargePages<double>().allocate(std::size_t{1} << 55), std::bad_alloc);
+  if (!has_large_pages()) return;
+  EXPECT_THROW(LargePages<double>().allocate(std::size_t{1} << 55), std::bad_alloc);
 }
 
 }  // namespace
