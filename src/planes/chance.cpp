@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "planes/relate.h"
@@ -10,7 +12,6 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kOff = 25.0;  // χ² against noise alone: patches that a frame turns off their fit by less are well where they are
 constexpr double kAnyTurn = 5.0;  // rad: a normal prior of this deviation about each axis is as good as any rotation alike, where one axis is left open
 constexpr double kAnyTilt = 1.0;  // rad: larger doubts say no more
 
@@ -25,6 +26,32 @@ std::vector<double> log_choices(const Evidence& p, const std::vector<std::set<in
     choices.push_back(std::log(static_cast<double>(p.locals.size() * (neighbour ? near.size() : groups))));
   }
   return choices;
+}
+
+/// The evidence for a group, less what its members could have come to: one is where it is, and the others come to it.
+double supported(const Evidence& p, const Group& group, const std::vector<double>& choices) {
+  const double all = std::accumulate(choices.begin(), choices.end(), 0.0), most = *std::max_element(choices.begin(), choices.end());
+  return log_evidence(p, group) - (all - most);
+}
+
+template <class T>
+std::vector<T> without(std::vector<T> values, std::size_t i) {
+  values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
+  return values;
+}
+
+/// The member, of those that the frame certainly turns off their fit, without which there is most evidence for the rest, if more than with it.
+std::optional<std::size_t> here_by_chance(const Evidence& p, const Group& group, const std::vector<double>& choices) {
+  const OrientationFrame frame = fit_constrained(p, group.frame, group.members, {}, {});
+  double best = supported(p, group, choices);
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < group.members.size(); ++i) {
+    const Member& m = group.members[i];
+    if (noise_chi2(p.patch(m), frame.direction(p.locals[m.local])) < kCertain) continue;
+    const double rest = supported(p, {group.frame, without(group.members, i), 0.0}, without(choices, i));
+    if (rest > best) best = rest, found = i;
+  }
+  return found;
 }
 
 }  // namespace
@@ -54,34 +81,17 @@ bool part_by_chance(const Evidence& p, const std::vector<std::pair<int, int>>& a
   for (std::size_t g = 0; g < groups.size(); ++g)
     for (const Member& m : groups[g].members) group_of[m.patch] = static_cast<int>(g);
   const std::size_t count = groups.size();
-  for (std::size_t g = 0; g < count; ++g) {
+  for (std::size_t g = 0; g < count; ++g)
     while (groups[g].members.size() > 1) {
-      const std::vector<double> choices = log_choices(p, adjoining, group_of, count, groups[g].members);
-      const auto supported = [&](const Group& group, const std::vector<double>& of_members) {
-        double sum = 0, most = 0;
-        for (const double c : of_members) sum += c, most = std::max(most, c);
-        return log_evidence(p, group) - (sum - most);  // one is where it is, and the others come to it
-      };
-      const OrientationFrame frame = fit_constrained(p, groups[g].frame, groups[g].members, {}, {});
-      double best = supported(groups[g], choices);
-      std::size_t parts = groups[g].members.size();
-      for (std::size_t i = 0; i < groups[g].members.size(); ++i) {
-        const Member m = groups[g].members[i];
-        if (noise_chi2(p.patch(m), frame.direction(p.locals[m.local])) < kOff) continue;
-        Group without = groups[g];
-        std::vector<double> others = choices;
-        without.members.erase(without.members.begin() + static_cast<std::ptrdiff_t>(i));
-        others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        if (const double e = supported(without, others); e > best) best = e, parts = i;
-      }
-      if (parts == groups[g].members.size()) break;
-      const int patch = groups[g].members[parts].patch;
-      groups[g].members.erase(groups[g].members.begin() + static_cast<std::ptrdiff_t>(parts));
-      groups[g].weight -= p.patches[patch].area;
+      const std::optional<std::size_t> leaves = here_by_chance(p, groups[g], log_choices(p, adjoining, group_of, count, groups[g].members));
+      if (!leaves) break;
+      const int patch = groups[g].members[*leaves].patch;
+      const double area = p.patches[patch].area;
+      groups[g].members = without(std::move(groups[g].members), *leaves);
+      groups[g].weight -= area;
       group_of[patch] = static_cast<int>(groups.size());
-      groups.push_back({open_frame(p.patches[patch].fit.normal, p.space), {{patch, 0}}, p.patches[patch].area});
+      groups.push_back({open_frame(p.patches[patch].fit.normal, p.space), {{patch, 0}}, area});
     }
-  }
   return groups.size() > count;
 }
 

@@ -47,7 +47,8 @@ double irregularity(const OrientationFrame& a, const OrientationFrame& b, const 
 /// χ²: by how many standard errors, squared, a patch's fitted normal differs from `normal`.
 double tilt_chi2(const Patch& patch, const Vec3& normal);
 
-/// The same by noise alone.
+/// The same by noise alone, and from where on a patch is certainly turned off its fit.
+constexpr double kCertain = 25.0;
 double noise_chi2(const Patch& patch, const Vec3& normal);
 
 /// D: what it costs to give a patch the orientation `normal` (Eq. 3.7 in terms of significance): near zero

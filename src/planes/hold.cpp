@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one standard deviation from the centre may be turned off
 constexpr double kWorse = 2.0;        // times the rms of its own fit: less may be what the surface is not flat by
-constexpr double kCertain = 25.0;     // χ² of that turn against noise alone
 constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
 /// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.
