@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cuboids/box_fit.h"
 #include "cuboids/reach.h"
@@ -17,6 +18,8 @@ constexpr int kFewestPointsOfSide = 24;
 constexpr double kVoxelSigmas = 3.0;
 constexpr double kFinestVoxel = 0.005;  // of the radius of the objects
 constexpr double kFarthest = 100.0;     // m
+constexpr double kOnSurfaceSigmas = 3.0, kOnSurface = 0.8;  // of the points of a remnant
+constexpr double kRemnant = 0.25;                            // of the points of what it is a remnant of, at most
 
 /// Bounding radius of the objects, supports left out.
 double radius_of(const Observation& seen, const std::vector<ObjectPart>& parts) {
@@ -42,6 +45,27 @@ OrientedBox set_down(const Observation& seen, std::span<const int> points, Orien
   box.center.z() -= 0.5 * bottom;
   box.half_size.z() += 0.5 * bottom;
   return box;
+}
+
+/// Share of the points that lie on the surface of a box, as near as their noise lets them.
+double share_on_surface(const Observation& seen, std::span<const int> points, const OrientedBox& box) {
+  std::size_t count = 0;
+  for (const int i : points) {
+    const Vec3 beyond = (box.axes.transpose() * (seen.points[i] - box.center)).cwiseAbs() - box.half_size;
+    count += std::abs(beyond.maxCoeff()) < kOnSurfaceSigmas * seen.graph.sigma[i];
+  }
+  return static_cast<double>(count) / static_cast<double>(points.size());
+}
+
+/// Of each part, whether it is but a remnant of another one, whose box is known better: a strip of a top that something stands on.
+std::vector<char> find_remnants(const Observation& seen, const std::vector<ObjectPart>& parts, const std::vector<std::optional<OrientedBox>>& boxes) {
+  std::vector<char> remnant(parts.size(), 0);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    remnant[k] = parts[k].label.empty() && std::any_of(parts.begin(), parts.end(), [&](const ObjectPart& other) {
+      const auto& box = boxes[&other - parts.data()];
+      return box && other.label.empty() && parts[k].points.size() < kRemnant * other.points.size() && share_on_surface(seen, parts[k].points, *box) > kOnSurface;
+    });
+  return remnant;
 }
 
 /// Whether a box ends nearer to what lies below it than to the ground.
@@ -85,25 +109,35 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     cuboid.box = cuboid.initial = box;
     cuboid.visible_points = points.size();
     cuboid.label = part.label;
+    cuboid.stack = part.stack;
     cuboid.object = object_of(part);
     const auto density = frame.densities.find(part.label);
     cuboid.density = density == frame.densities.end() ? options.density : density->second;
     cuboids.push_back(cuboid);
     set_downs.push_back(set_down(seen, points, box));
   };
+  std::vector<Mat3> axes(parts.size());
+  std::vector<std::optional<OrientedBox>> boxes(parts.size());  // none = not full
+  const auto voxel_of = [&](const ObjectPart& part) { return std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest); };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];
-    const double voxel = std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest);
-    const Mat3 axes = box_axes(seen, view, part.points, faces_of[k], part.free_orientation);
-    const OrientedBox box = bound(seen, part.points, faces_of[k], axes, voxel);
-    const OrientedBox standing = set_down(seen, part.points, box);
-    if (filled_share(view, standing, voxel) >= options.fill) {
-      add(part, part.points, box);
+    axes[k] = box_axes(seen, view, part.points, faces_of[k], part.free_orientation);
+    const OrientedBox box = bound(seen, part.points, faces_of[k], axes[k], voxel_of(part));
+    if (filled_share(view, set_down(seen, part.points, box), voxel_of(part)) >= options.fill) boxes[k] = box;
+  }
+  const std::vector<char> remnant = find_remnants(seen, parts, boxes);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    context.check();
+    const ObjectPart& part = parts[k];
+    if (remnant[k]) continue;
+    if (boxes[k]) {
+      add(part, part.points, *boxes[k]);
       continue;
     }
-    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, standing, voxel, options.fill))
-      add(part, slab, bound(seen, slab, {}, axes, voxel));
+    const OrientedBox standing = set_down(seen, part.points, bound(seen, part.points, faces_of[k], axes[k], voxel_of(part)));
+    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, standing, voxel_of(part), options.fill))
+      add(part, slab, bound(seen, slab, {}, axes[k], voxel_of(part)));
   }
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     if (!stands_on_another(cuboids, cuboids[i].initial)) cuboids[i].box = cuboids[i].initial = set_downs[i];

@@ -233,7 +233,7 @@ std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthVie
     }
     if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) result.push_back(std::move(part));
     else
-      for (Piece& piece : pieces) result.push_back({std::move(piece.points), part.label, part.free_orientation});
+      for (Piece& piece : pieces) result.push_back({std::move(piece.points), part.label, part.free_orientation, part.stack});
   }
   return result;
 }

@@ -63,7 +63,7 @@ std::optional<OrientedBox> joined_object(const DepthView& view, const Cuboid& a,
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
 /// are apart along the third, and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
-  if (a.label != b.label) return std::nullopt;
+  if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack)) return std::nullopt;
   if (!a.label.empty()) return joined_object(view, a, b, tolerance);
   const auto axes_b = aligned_axes(a.initial, b.initial);
   if (!axes_b) return std::nullopt;

@@ -31,6 +31,7 @@ struct ObjectPart {
   std::vector<int> points;  ///< indices into Observation::points
   std::string label;
   bool free_orientation = false;  ///< its axes come from its two largest planes, not from up
+  int stack = -1;                 ///< parts with the same number were cut apart at a level: they are not one again
 };
 
 /// Stage 1: cloud, world, supports (design page, step 1).

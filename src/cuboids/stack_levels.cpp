@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/stack_levels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr std::size_t kMostSamples = 800;  // of a part
+constexpr std::size_t kFewestSamples = 40;  // on either side of a level
+constexpr double kSmallestShare = 0.06;   // of the samples, on either side of a level
+constexpr int kFirstLevels = 16, kFinerLevels = 6;
+constexpr double kOffSigmas = 3.0;      // a point farther off its side counts as unexplained
+constexpr double kLeastExplained = 0.08;     // of the points, that a level must explain more
+constexpr double kMostLeft = 0.25;      // of the points, that may stay unexplained …
+constexpr double kMostOfOne = 0.5;      // … and of those that one box leaves so
+constexpr double kLeastHeight = 0.02, kLeastHeightSigmas = 10.0;  // m, of what stands on or under another
+constexpr double kFacesUp = 0.7;
+constexpr int kRounds = 3;
+
+/// A point of a part, and where its surface looks.
+struct Sample {
+  Vec3 p, n;
+  double sigma;
+};
+
+/// Middle of the window of a given width that holds most values.
+double mode(std::vector<double>& values, double width) {
+  std::sort(values.begin(), values.end());
+  std::size_t best = 0, at = 0, low = 0;
+  for (std::size_t high = 0; high < values.size(); ++high) {
+    while (values[high] - values[low] > width) ++low;
+    if (high - low + 1 > best) best = high - low + 1, at = low;
+  }
+  double sum = 0;
+  for (std::size_t k = at; k < at + best; ++k) sum += values[k];
+  return sum / static_cast<double>(best);
+}
+
+/// An upright box with one side each way, as far as they were seen.
+struct UprightBox {
+  double yaw = 0;
+  std::array<double, 5> at{};  ///< m, of the four sides and the top along their normals; infinite = not seen
+
+  Vec2 out(int k) const { return {std::cos(yaw + 0.5 * kPi * k), std::sin(yaw + 0.5 * kPi * k)}; }
+  double place(int k, const Vec3& p) const { return k == 4 ? p.z() : out(k).dot(p.head<2>()); }
+  int side(const Vec3& normal) const {
+    if (normal.z() > kFacesUp) return 4;
+    int best = 0;
+    for (int k = 1; k < 4; ++k)
+      if (out(k).dot(normal.head<2>()) > out(best).dot(normal.head<2>())) best = k;
+    return best;
+  }
+  /// In units of what is allowed.
+  double off(const Sample& s) const {
+    const int k = side(s.n);
+    return (place(k, s.p) - at[k]) / (kOffSigmas * s.sigma);
+  }
+};
+
+/// Angle by which explained samples ask the box to turn.
+double turn_asked(const UprightBox& box, std::span<const Sample> samples) {
+  std::array<std::array<double, 5>, 4> sums{};  // count, along, off, along², along · off
+  for (const Sample& s : samples) {
+    const int k = box.side(s.n);
+    if (k == 4 || std::abs(box.off(s)) > 1.0) continue;
+    const Vec2 out = box.out(k);
+    const double along = -out.y() * s.p.x() + out.x() * s.p.y(), off = box.place(k, s.p) - box.at[k];
+    const std::array<double, 5> terms{1.0, along, off, along * along, along * off};
+    for (int t = 0; t < 5; ++t) sums[k][t] += terms[t];
+  }
+  double numerator = 0, denominator = 1e-12;
+  for (const auto& [count, along, off, square, product] : sums)
+    if (count > 2.0) numerator += product - along * off / count, denominator += square - along * along / count;
+  return -numerator / denominator;
+}
+
+/// The upright box that explains most samples: turned as their normals say, then as their places do.
+UprightBox fit_upright(std::span<const Sample> samples) {
+  UprightBox box;
+  Vec2 turn = Vec2::Zero();
+  double sigma = 0;
+  for (const Sample& s : samples) {
+    const double angle = 4.0 * std::atan2(s.n.y(), s.n.x());
+    turn += s.n.head<2>().squaredNorm() * Vec2(std::cos(angle), std::sin(angle));
+    sigma += s.sigma / static_cast<double>(samples.size());
+  }
+  box.yaw = 0.25 * std::atan2(turn.y(), turn.x());
+  for (int round = 0; round < kRounds; ++round) {
+    if (round > 0) box.yaw += turn_asked(box, samples);
+    std::array<std::vector<double>, 5> places;
+    for (const Sample& s : samples) {
+      const int k = box.side(s.n);
+      places[k].push_back(box.place(k, s.p));
+    }
+    for (int k = 0; k < 5; ++k)
+      box.at[k] = places[k].empty() ? std::numeric_limits<double>::infinity() : mode(places[k], 2.0 * kOffSigmas * sigma);
+  }
+  return box;
+}
+
+/// How much of the samples (each 0 … 1) no upright box explains.
+double unexplained(std::span<const Sample> samples) {
+  const UprightBox box = fit_upright(samples);
+  double cost = 0;
+  for (const Sample& s : samples) cost += std::min(box.off(s) * box.off(s), 1.0);
+  return cost;
+}
+
+/// The level that two boxes explain most above and below; none if one box does nearly as well.
+struct Level {
+  double z = 0, left = std::numeric_limits<double>::infinity();
+};
+
+Level best_level(std::span<const Sample> samples) {  // in order of height
+  const double low = samples.front().p.z(), high = samples.back().p.z(), step = (high - low) / kFirstLevels;
+  const std::size_t fewest = std::max(kFewestSamples, static_cast<std::size_t>(kSmallestShare * static_cast<double>(samples.size())));
+  const double height = std::max(kLeastHeight, kLeastHeightSigmas * samples.front().sigma);
+  Level best;
+  const auto attempt = [&](double z) {
+    if (z - low < height || high - z < height) return;
+    const auto from = std::lower_bound(samples.begin(), samples.end(), z, [](const Sample& s, double value) { return s.p.z() < value; });
+    const auto below = static_cast<std::size_t>(from - samples.begin());
+    if (below < fewest || samples.size() - below < fewest) return;
+    const double left = unexplained(samples.first(below)) + unexplained(samples.subspan(below));
+    if (left < best.left) best = {z, left};
+  };
+  for (int k = 1; k < kFirstLevels; ++k) attempt(low + step * k);
+  if (!std::isfinite(best.left)) return best;
+  const double middle = best.z;
+  for (int k = -kFinerLevels + 1; k < kFinerLevels; ++k)
+    if (k != 0) attempt(middle + step * k / kFinerLevels);
+  return best;
+}
+
+/// Levels that cut some samples into boxes, and what these leave unexplained.
+struct Levels {
+  std::vector<double> z;
+  double left = 0;
+};
+
+Levels levels_between(std::span<const Sample> samples) {
+  const double count = static_cast<double>(samples.size()), one = unexplained(samples);
+  const Levels whole{{}, one};
+  if (samples.size() < 2 * kFewestSamples || one < kLeastExplained * count) return whole;
+  const Level level = best_level(samples);
+  if (one - level.left < kLeastExplained * count) return whole;
+  const auto from = std::lower_bound(samples.begin(), samples.end(), level.z, [](const Sample& s, double z) { return s.p.z() < z; });
+  const auto below = static_cast<std::size_t>(from - samples.begin());
+  Levels cut = levels_between(samples.first(below));
+  const Levels above = levels_between(samples.subspan(below));
+  cut.left += above.left;
+  if (cut.left > std::min(kMostLeft * count, kMostOfOne * one)) return whole;
+  cut.z.push_back(level.z);
+  cut.z.insert(cut.z.end(), above.z.begin(), above.z.end());
+  return cut;
+}
+
+std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& points) {
+  std::vector<Sample> samples;
+  const std::size_t step = points.size() / kMostSamples + 1;
+  for (std::size_t k = 0; k < points.size(); k += step)
+    if (const int i = points[k]; !seen.graph.normals[i].isZero()) samples.push_back({seen.points[i], seen.graph.normals[i], seen.graph.sigma[i]});
+  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.p.z() < b.p.z(); });
+  return samples;
+}
+
+}  // namespace
+
+std::vector<ObjectPart> cut_stacks(const Observation& seen, std::vector<ObjectPart> parts, Context& context) {
+  std::vector<ObjectPart> result;
+  for (ObjectPart& part : parts) {
+    context.check();
+    const std::vector<double> levels = part.label.empty() ? levels_between(samples_of(seen, part.points)).z : std::vector<double>();
+    const int stack = levels.empty() ? -1 : static_cast<int>(result.size());
+    std::vector<ObjectPart> pieces(levels.size() + 1, ObjectPart{{}, part.label, part.free_orientation, stack});
+    for (const int i : part.points)
+      pieces[static_cast<std::size_t>(std::upper_bound(levels.begin(), levels.end(), seen.points[i].z()) - levels.begin())].points.push_back(i);
+    for (ObjectPart& piece : pieces) result.push_back(std::move(piece));
+  }
+  return result;
+}
+
+}  // namespace unseen::cuboids
