@@ -6,7 +6,6 @@
 #include "cuboids/cuts.h"
 #include "cuboids/depth_noise.h"
 #include "cuboids/observation.h"
-#include "cuboids/stack_levels.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -26,7 +25,7 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
   std::vector<ObjectPart> parts;
   {
     const Stage stage(context, summary, "objects");
-    parts = cut_hollow_parts(seen, view, cut_stacks(seen, find_objects(frame, seen, options, context), context), context);
+    parts = cut_hollow_parts(seen, view, find_objects(frame, seen, options, context), context);
     summary.counts.emplace_back("parts", parts.size());
   }
   {

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "cuboids/faces.h"
+#include "cuboids/stack_levels.h"
 #include "cuboids/observation.h"
 #include "cuboids/strokes.h"
 #include "cuboids/supports.h"
@@ -68,8 +69,8 @@ void judge(Border& border, const Face& a, const Face& b, double sigma, double sp
   border.joins = !border.concave && meets && border.links >= kFewestBorderLinks;
 }
 
-/// Faces of one object: joined where they meet convexly or smoothly, never across a concave edge.
-std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, const Observation& seen) {
+/// Faces of one object: joined where they meet convexly or smoothly, never across a concave edge nor from one piece of a stack to another.
+std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, const std::vector<int>& piece_of_point, const Observation& seen) {
   std::map<std::pair<int, int>, Border> borders;
   for (int i = 0; i < static_cast<int>(owner.size()); ++i)
     for (const int j : seen.graph.neighbours(i)) {
@@ -82,6 +83,8 @@ std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, c
   for (auto& [pair, border] : borders) {
     const Face &a = faces.faces[pair.first], &b = faces.faces[pair.second];
     judge(border, a, b, seen.graph.sigma[a.points.front()], seen.graph.spacing[a.points.front()]);
+    const int piece = piece_of_point[a.points.front()], other = piece_of_point[b.points.front()];
+    if (piece > 0 && other > 0 && piece != other) border.concave = true, border.joins = false;
     if (border.joins) order.emplace_back(border.links, pair);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -96,6 +99,19 @@ std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, c
     });
     if (!apart) std::replace(object.begin(), object.end(), from, to);
   }
+  return object;
+}
+
+/// The surfaces themselves say where one object ends and the next begins: numbers of objects of the points of group 0, −1 = none.
+std::vector<int> join_surfaces(const Observation& seen, const std::vector<int>& group, const std::vector<int>& piece_of_point) {
+  std::vector<int> within(group.size(), -1), object(group.size(), -1);
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (group[i] == 0) within[i] = piece_of_point[i];
+  Faces faces = grow_faces(seen.points, seen.graph, within, seen.T_world_camera.translation, kFewestFacePoints);
+  leave_out_slivers(faces, seen.graph);
+  const std::vector<int> owner = spread(faces, seen.graph, within), joined = join_faces(faces, owner, piece_of_point, seen);
+  for (std::size_t i = 0; i < object.size(); ++i)
+    if (owner[i] >= 0) object[i] = joined[owner[i]];
   return object;
 }
 
@@ -181,17 +197,16 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
     }
   }
   context.check();
-  // Without masks the surfaces themselves say where one object ends and the next begins.
   std::vector<int> object = group;
+  Stacks stacks{std::vector<int>(group.size(), 0), {-1}};
   if (!masked) {
-    std::vector<int> unmarked = group;
-    for (int& g : unmarked) g = g == 0 ? 0 : -1;
-    Faces faces = grow_faces(seen.points, seen.graph, unmarked, seen.T_world_camera.translation, kFewestFacePoints);
-    leave_out_slivers(faces, seen.graph);
-    const std::vector<int> owner = spread(faces, seen.graph, unmarked), joined = join_faces(faces, owner, seen);
+    std::vector<int> joined = join_surfaces(seen, group, stacks.piece_of_point);
+    stacks = find_stacks(seen, components(seen, joined));
+    context.check();
+    if (stacks.stack_of_piece.size() > 1) joined = join_surfaces(seen, group, stacks.piece_of_point);
     const int first = static_cast<int>(labels.size()) + 2;
     for (std::size_t i = 0; i < object.size(); ++i)
-      if (unmarked[i] == 0) object[i] = owner[i] >= 0 ? first + joined[owner[i]] : 0;
+      if (group[i] == 0 && joined[i] >= 0) object[i] = first + joined[i];
   }
   context.check();
   std::vector<ObjectPart> parts;
@@ -211,6 +226,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
       part.label = labels[g - 1];
       part.free_orientation = true;
     }
+    for (const int i : points) part.stack = std::max(part.stack, stacks.stack_of_piece[stacks.piece_of_point[i]]);
     part.points = std::move(points);
     parts.push_back(std::move(part));
   }

@@ -21,6 +21,7 @@ constexpr double kMostOfOne = 0.5;      // … and of those that one box leaves 
 constexpr double kLeastHeight = 0.02, kLeastHeightSigmas = 10.0;  // m, of what stands on or under another
 constexpr double kFacesUp = 0.7;
 constexpr int kRounds = 3;
+constexpr double kFar = 1e9;
 
 /// A point of a part, and where its surface looks.
 struct Sample {
@@ -137,27 +138,42 @@ Level best_level(std::span<const Sample> samples) {  // in order of height
   return best;
 }
 
-/// Levels that cut some samples into boxes, and what these leave unexplained.
-struct Levels {
-  std::vector<double> z;
-  double left = 0;
-};
+std::span<const Sample> between(std::span<const Sample> samples, double low, double high) {
+  const auto lower = [&](double z) { return std::lower_bound(samples.begin(), samples.end(), z, [](const Sample& s, double value) { return s.p.z() < value; }); };
+  return {lower(low), lower(high)};
+}
 
-Levels levels_between(std::span<const Sample> samples) {
+/// Levels that cut some samples into boxes, from below.
+std::vector<double> split(std::span<const Sample> samples) {
   const double count = static_cast<double>(samples.size()), one = unexplained(samples);
-  const Levels whole{{}, one};
-  if (samples.size() < 2 * kFewestSamples || one < kLeastExplained * count) return whole;
+  if (samples.size() < 2 * kFewestSamples || one < kLeastExplained * count) return {};
   const Level level = best_level(samples);
-  if (one - level.left < kLeastExplained * count) return whole;
-  const auto from = std::lower_bound(samples.begin(), samples.end(), level.z, [](const Sample& s, double z) { return s.p.z() < z; });
-  const auto below = static_cast<std::size_t>(from - samples.begin());
-  Levels cut = levels_between(samples.first(below));
-  const Levels above = levels_between(samples.subspan(below));
-  cut.left += above.left;
-  if (cut.left > std::min(kMostLeft * count, kMostOfOne * one)) return whole;
-  cut.z.push_back(level.z);
-  cut.z.insert(cut.z.end(), above.z.begin(), above.z.end());
-  return cut;
+  if (one - level.left < kLeastExplained * count) return {};
+  std::vector<double> levels = split(between(samples, -kFar, level.z));
+  levels.push_back(level.z);
+  const std::vector<double> above = split(between(samples, level.z, kFar));
+  levels.insert(levels.end(), above.begin(), above.end());
+  return levels;
+}
+
+/// The levels between which a stack's boxes are; none if it is not much better explained so than by one box.
+std::vector<double> levels_of(std::span<const Sample> samples) {
+  std::vector<double> levels = split(samples);
+  if (levels.empty()) return {};
+  // The first cuts of a tower may lie within a box: whatever one box between the next levels explains as well is one.
+  levels.insert(levels.begin(), -kFar);
+  levels.push_back(kFar);
+  for (std::size_t k = 1; k + 1 < levels.size();) {
+    const auto below = between(samples, levels[k - 1], levels[k]), above = between(samples, levels[k], levels[k + 1]);
+    const auto both = between(samples, levels[k - 1], levels[k + 1]);
+    const double gain = unexplained(both) - unexplained(below) - unexplained(above);
+    if (gain < kLeastExplained * static_cast<double>(both.size())) levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(k));
+    else ++k;
+  }
+  double left = 0;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) left += unexplained(between(samples, levels[k], levels[k + 1]));
+  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * unexplained(samples))) return {};
+  return {levels.begin() + 1, levels.end() - 1};
 }
 
 std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& points) {
@@ -171,18 +187,18 @@ std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& 
 
 }  // namespace
 
-std::vector<ObjectPart> cut_stacks(const Observation& seen, std::vector<ObjectPart> parts, Context& context) {
-  std::vector<ObjectPart> result;
-  for (ObjectPart& part : parts) {
-    context.check();
-    const std::vector<double> levels = part.label.empty() ? levels_between(samples_of(seen, part.points)).z : std::vector<double>();
-    const int stack = levels.empty() ? -1 : static_cast<int>(result.size());
-    std::vector<ObjectPart> pieces(levels.size() + 1, ObjectPart{{}, part.label, part.free_orientation, stack});
-    for (const int i : part.points)
-      pieces[static_cast<std::size_t>(std::upper_bound(levels.begin(), levels.end(), seen.points[i].z()) - levels.begin())].points.push_back(i);
-    for (ObjectPart& piece : pieces) result.push_back(std::move(piece));
+Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>& parts) {
+  Stacks stacks{std::vector<int>(seen.points.size(), 0), {-1}};
+  int stack = 0;
+  for (const std::vector<int>& part : parts) {
+    const std::vector<double> levels = levels_of(samples_of(seen, part));
+    if (levels.empty()) continue;
+    const auto first = static_cast<int>(stacks.stack_of_piece.size());
+    for (const int i : part)
+      stacks.piece_of_point[i] = first + static_cast<int>(std::upper_bound(levels.begin(), levels.end(), seen.points[i].z()) - levels.begin());
+    stacks.stack_of_piece.resize(stacks.stack_of_piece.size() + levels.size() + 1, stack++);
   }
-  return result;
+  return stacks;
 }
 
 }  // namespace unseen::cuboids

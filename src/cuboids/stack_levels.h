@@ -8,8 +8,14 @@
 
 namespace unseen::cuboids {
 
-/// Parts that nobody named, and whose surface two boxes one upon the other explain much better than one box can, are cut at the level between
-/// them: a crate that is turned a little on another has its sides nearly in line with those below, and no gap.
-std::vector<ObjectPart> cut_stacks(const Observation& seen, std::vector<ObjectPart> parts, Context& context);
+/// Levels that parts are cut at. The pieces between are numbered 1, 2, … over all stacks.
+struct Stacks {
+  std::vector<int> piece_of_point;  ///< 0 = in no stack
+  std::vector<int> stack_of_piece;  ///< 0, 1, …; that of piece 0 is −1
+};
+
+/// Parts (lists of points) whose surface boxes one upon the other explain much better than one box can are stacks: a crate that is turned a little
+/// on another has its sides nearly in line with those below, and no gap.
+Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>& parts);
 
 }  // namespace unseen::cuboids
