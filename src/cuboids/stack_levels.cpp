@@ -10,12 +10,13 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr std::size_t kMostSamples = 800;  // of a part
-constexpr std::size_t kFewestSamples = 40;  // on either side of a level
+constexpr std::size_t kCoarse = 400, kFine = 2000;  // samples of a part: to see whether it is a stack, and to place its levels
+constexpr std::size_t kFewestSamples = 24;  // on either side of a level
 constexpr double kSmallestShare = 0.06;   // of the samples, on either side of a level
-constexpr int kFirstLevels = 16, kFinerLevels = 6;
+constexpr int kFirstLevels = 20, kFinerLevels = 4;
 constexpr double kOffSigmas = 3.0;      // a point farther off its side counts as unexplained
-constexpr double kLeastExplained = 0.08;     // of the points, that a level must explain more
+constexpr double kLeastExplained = 0.08;  // of the points, that a level must explain more …
+constexpr double kLeastShare = 0.2;      // … and of those that one box leaves unexplained
 constexpr double kMostLeft = 0.25;      // of the points, that may stay unexplained …
 constexpr double kMostOfOne = 0.5;      // … and of those that one box leaves so
 constexpr double kLeastHeight = 0.02, kLeastHeightSigmas = 10.0;  // m, of what stands on or under another
@@ -131,10 +132,6 @@ Level best_level(std::span<const Sample> samples) {  // in order of height
     if (left < best.left) best = {z, left};
   };
   for (int k = 1; k < kFirstLevels; ++k) attempt(low + step * k);
-  if (!std::isfinite(best.left)) return best;
-  const double middle = best.z;
-  for (int k = -kFinerLevels + 1; k < kFinerLevels; ++k)
-    if (k != 0) attempt(middle + step * k / kFinerLevels);
   return best;
 }
 
@@ -148,7 +145,7 @@ std::vector<double> split(std::span<const Sample> samples) {
   const double count = static_cast<double>(samples.size()), one = unexplained(samples);
   if (samples.size() < 2 * kFewestSamples || one < kLeastExplained * count) return {};
   const Level level = best_level(samples);
-  if (one - level.left < kLeastExplained * count) return {};
+  if (one - level.left < std::max(kLeastExplained * count, kLeastShare * one)) return {};
   std::vector<double> levels = split(between(samples, -kFar, level.z));
   levels.push_back(level.z);
   const std::vector<double> above = split(between(samples, level.z, kFar));
@@ -176,9 +173,27 @@ std::vector<double> levels_of(std::span<const Sample> samples) {
   return {levels.begin() + 1, levels.end() - 1};
 }
 
-std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& points) {
+/// Moves each level to where the boxes on either side explain most.
+void place(std::vector<double>& levels, std::span<const Sample> samples) {
+  double step = (samples.back().p.z() - samples.front().p.z()) / kFirstLevels;
+  for (int round = 0; round < 3; ++round) {
+    step /= kFinerLevels;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      const double low = k > 0 ? levels[k - 1] : -kFar, high = k + 1 < levels.size() ? levels[k + 1] : kFar, middle = levels[k];
+      double least = std::numeric_limits<double>::infinity();
+      for (int move = -kFinerLevels; move <= kFinerLevels; ++move) {
+        const double z = middle + step * move;
+        const auto below = between(samples, low, z), above = between(samples, z, high);
+        if (z <= low || z >= high || below.empty() || above.empty()) continue;
+        if (const double left = unexplained(below) + unexplained(above); left < least) least = left, levels[k] = z;
+      }
+    }
+  }
+}
+
+std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& points, std::size_t most) {
   std::vector<Sample> samples;
-  const std::size_t step = points.size() / kMostSamples + 1;
+  const std::size_t step = points.size() / most + 1;
   for (std::size_t k = 0; k < points.size(); k += step)
     if (const int i = points[k]; !seen.graph.normals[i].isZero()) samples.push_back({seen.points[i], seen.graph.normals[i], seen.graph.sigma[i]});
   std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.p.z() < b.p.z(); });
@@ -191,8 +206,9 @@ Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>&
   Stacks stacks{std::vector<int>(seen.points.size(), 0), {-1}};
   int stack = 0;
   for (const std::vector<int>& part : parts) {
-    const std::vector<double> levels = levels_of(samples_of(seen, part));
+    std::vector<double> levels = levels_of(samples_of(seen, part, kCoarse));
     if (levels.empty()) continue;
+    place(levels, samples_of(seen, part, kFine));
     const auto first = static_cast<int>(stacks.stack_of_piece.size());
     for (const int i : part)
       stacks.piece_of_point[i] = first + static_cast<int>(std::upper_bound(levels.begin(), levels.end(), seen.points[i].z()) - levels.begin());
