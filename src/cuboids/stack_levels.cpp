@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/stack_levels.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,6 +114,42 @@ double unexplained(std::span<const Sample> samples) {
   return cost;
 }
 
+/// The same of a body whose sides may lean: one plane each way.
+double unexplained_leaning(std::span<const Sample> samples) {
+  const UprightBox box = fit_upright(samples);
+  std::array<std::vector<const Sample*>, 5> sides;
+  for (const Sample& s : samples) sides[box.side(s.n)].push_back(&s);
+  double cost = 0;
+  for (const std::vector<const Sample*>& side : sides) {
+    if (side.empty()) continue;
+    Vec3 normal = Vec3::Zero();
+    for (const Sample* s : side) normal += s->n;
+    normal.normalize();
+    std::vector<double> heights;
+    for (const Sample* s : side) heights.push_back(normal.dot(s->p));
+    double offset = mode(heights, 2.0 * kOffSigmas * side.front()->sigma);
+    for (int round = 0; round < kRounds; ++round) {
+      Vec3 first = Vec3::Zero();
+      Mat3 second = Mat3::Zero();
+      double count = 0;
+      for (const Sample* s : side) {
+        if (std::abs(normal.dot(s->p) - offset) > kOffSigmas * s->sigma) continue;
+        const Vec3 d = s->p - side.front()->p;
+        first += d;
+        second += d * d.transpose();
+        count += 1.0;
+      }
+      if (count < 3.0) break;
+      const Vec3 mean = first / count;
+      const Vec3 fitted = Eigen::SelfAdjointEigenSolver<Mat3>(second / count - mean * mean.transpose()).eigenvectors().col(0);
+      normal = fitted.dot(normal) < 0.0 ? Vec3(-fitted) : fitted;
+      offset = normal.dot(side.front()->p + mean);
+    }
+    for (const Sample* s : side) cost += std::min(std::pow((normal.dot(s->p) - offset) / (kOffSigmas * s->sigma), 2), 1.0);
+  }
+  return cost;
+}
+
 /// The level that two boxes explain most above and below; none if one box does nearly as well.
 struct Level {
   double z = 0, left = std::numeric_limits<double>::infinity();
@@ -169,7 +206,7 @@ std::vector<double> levels_of(std::span<const Sample> samples) {
   }
   double left = 0;
   for (std::size_t k = 0; k + 1 < levels.size(); ++k) left += unexplained(between(samples, levels[k], levels[k + 1]));
-  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * unexplained(samples))) return {};
+  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * std::min(unexplained(samples), unexplained_leaning(samples)))) return {};
   return {levels.begin() + 1, levels.end() - 1};
 }
 
