@@ -3,12 +3,15 @@
 #include "cuboids/cuts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <set>
 
 #include "cuboids/box_fit.h"
+#include "cuboids/groove.h"
 #include "cuboids/hollow.h"
 
 namespace unseen::cuboids {
@@ -215,6 +218,28 @@ bool are_boxes(const Observation& seen, const DepthView& view, const std::vector
   return explained >= kFlat * all;
 }
 
+/// Points on either side of the grooves that run across a part which looks like one box.
+std::vector<std::vector<int>> cut_at_grooves(const Observation& seen, const DepthView& view, const std::vector<int>& points, std::span<const Face* const> faces,
+                                             const Mat3& axes) {
+  std::vector<std::vector<int>> pieces{points};
+  if (explained_share(points, faces, axes) < kFlat) return pieces;
+  const OrientedBox box = bound(seen, points, faces, axes, 0.0);
+  for (const int axis : {0, 1})
+    for (const double place : grooves(view, box, axis)) {
+      const Plane plane{axes.col(axis), axes.col(axis).dot(box.center) + place};
+      std::vector<std::vector<int>> parted;
+      for (std::vector<int>& piece : pieces) {
+        std::array<std::vector<int>, 2> sides;
+        for (const int i : piece) sides[plane.signed_distance(seen.points[i]) > 0.0].push_back(i);
+        const auto is_large = [&](const std::vector<int>& side) { return static_cast<double>(side.size()) > fewest_points(points.size()); };
+        if (std::all_of(sides.begin(), sides.end(), is_large)) parted.insert(parted.end(), std::make_move_iterator(sides.begin()), std::make_move_iterator(sides.end()));
+        else parted.push_back(std::move(piece));
+      }
+      pieces = std::move(parted);
+    }
+  return pieces;
+}
+
 }  // namespace
 
 std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context) {
@@ -223,17 +248,20 @@ std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthVie
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     ObjectPart& part = parts[k];
-    std::vector<Piece> pieces;
-    if (part.label.empty()) {
-      const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], part.free_orientation);
-      const Interior interior = look_into(seen, view, part.points, faces.faces.face_of_point, axes);
-      const std::vector<Plane> planes = planes_before(seen, faces.of_group[k], part.points.size());
-      const double hollow = has_steps(seen, faces.of_group[k], part.points.size()) ? kHollowStep : kHollow;
-      pieces = cut_apart(seen, interior, planes, part.points, hollow, context);
+    if (!part.label.empty()) {
+      result.push_back(std::move(part));
+      continue;
     }
-    if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) result.push_back(std::move(part));
-    else
-      for (Piece& piece : pieces) result.push_back({std::move(piece.points), part.label, part.free_orientation, part.stack});
+    const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], part.free_orientation);
+    for (std::vector<int>& points : cut_at_grooves(seen, view, part.points, faces.of_group[k], axes)) {
+      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, axes);
+      const std::vector<Plane> planes = planes_before(seen, faces.of_group[k], points.size());
+      const double hollow = has_steps(seen, faces.of_group[k], points.size()) ? kHollowStep : kHollow;
+      std::vector<Piece> pieces = cut_apart(seen, interior, planes, points, hollow, context);
+      if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) result.push_back({std::move(points), part.label, part.free_orientation, part.stack});
+      else
+        for (Piece& piece : pieces) result.push_back({std::move(piece.points), part.label, part.free_orientation, part.stack});
+    }
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cuboids/complete.h"
+#include "cuboids/groove.h"
 #include "cuboids/hypotheses.h"
 
 namespace unseen::cuboids {
@@ -60,6 +61,12 @@ std::optional<OrientedBox> joined_object(const DepthView& view, const Cuboid& a,
   return in_hidden_space(view, {&larger, 1}, whole, tolerance, kKnownObject) ? std::optional(whole) : std::nullopt;
 }
 
+/// Whether most of what was measured where a side of the whole would be is farther.
+bool is_groove(const DepthView& view, const OrientedBox& gap, int apart) {
+  const std::vector<double> shares = seen_through(view, gap, apart, 0.0);
+  return std::any_of(shares.begin(), shares.end(), [](double share) { return share > 0.5; });
+}
+
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
 /// are apart along the third, and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
@@ -91,7 +98,8 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
   const Span first = span_along(a.initial, axes.col(apart)), second = span_along(b.initial, axes.col(apart));
   spans[apart] = {std::min(first.high, second.high), std::max(first.low, second.low)};
   const bool is_gap = spans[apart].high > spans[apart].low;
-  if (is_gap && !in_hidden_space(view, {}, box_of(axes, spans), tolerance)) return std::nullopt;
+  const OrientedBox gap = box_of(axes, spans);
+  if (is_gap && (!in_hidden_space(view, {}, gap, tolerance) || is_groove(view, gap, apart))) return std::nullopt;
   const std::array parts = {a.initial, b.initial};
   return in_hidden_space(view, parts, whole, tolerance) ? std::optional(whole) : std::nullopt;
 }
