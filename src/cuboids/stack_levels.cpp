@@ -23,6 +23,7 @@ constexpr double kMostOfOne = 0.5;      // … and of those that one box leaves 
 constexpr double kLeastHeight = 0.02, kLeastHeightSigmas = 10.0;  // m, of what stands on or under another
 constexpr double kFacesUp = 0.7;
 constexpr int kRounds = 3;
+constexpr double kSeen = 0.03;  // of the samples, of a side that was seen
 constexpr double kFar = 1e9;
 
 /// A point of a part, and where its surface looks.
@@ -48,6 +49,7 @@ double mode(std::vector<double>& values, double width) {
 struct UprightBox {
   double yaw = 0;
   std::array<double, 5> at{};  ///< m, of the four sides and the top along their normals; infinite = not seen
+  std::array<char, 5> ends{};  ///< whether enough was seen of a side to say that the box ends there
 
   Vec2 out(int k) const { return {std::cos(yaw + 0.5 * kPi * k), std::sin(yaw + 0.5 * kPi * k)}; }
   double place(int k, const Vec3& p) const { return k == 4 ? p.z() : out(k).dot(p.head<2>()); }
@@ -58,10 +60,15 @@ struct UprightBox {
       if (out(k).dot(normal.head<2>()) > out(best).dot(normal.head<2>())) best = k;
     return best;
   }
-  /// In units of what is allowed.
+  /// From its own side, in units of what is allowed.
   double off(const Sample& s) const {
     const int k = side(s.n);
     return (place(k, s.p) - at[k]) / (kOffSigmas * s.sigma);
+  }
+  bool holds(const Sample& s) const {
+    for (int k = 0; k < 5; ++k)
+      if (ends[k] && place(k, s.p) - at[k] > kOffSigmas * s.sigma) return false;
+    return true;
   }
 };
 
@@ -100,8 +107,10 @@ UprightBox fit_upright(std::span<const Sample> samples) {
       const int k = box.side(s.n);
       places[k].push_back(box.place(k, s.p));
     }
-    for (int k = 0; k < 5; ++k)
+    for (int k = 0; k < 5; ++k) {
+      box.ends[k] = static_cast<double>(places[k].size()) > kSeen * static_cast<double>(samples.size());
       box.at[k] = places[k].empty() ? std::numeric_limits<double>::infinity() : mode(places[k], 2.0 * kOffSigmas * sigma);
+    }
   }
   return box;
 }
@@ -110,7 +119,7 @@ UprightBox fit_upright(std::span<const Sample> samples) {
 double unexplained(std::span<const Sample> samples) {
   const UprightBox box = fit_upright(samples);
   double cost = 0;
-  for (const Sample& s : samples) cost += std::min(box.off(s) * box.off(s), 1.0);
+  for (const Sample& s : samples) cost += box.holds(s) ? std::min(box.off(s) * box.off(s), 1.0) : 1.0;
   return cost;
 }
 
@@ -190,26 +199,6 @@ std::vector<double> split(std::span<const Sample> samples) {
   return levels;
 }
 
-/// The levels between which a stack's boxes are; none if it is not much better explained so than by one box.
-std::vector<double> levels_of(std::span<const Sample> samples) {
-  std::vector<double> levels = split(samples);
-  if (levels.empty()) return {};
-  // The first cuts of a tower may lie within a box: whatever one box between the next levels explains as well is one.
-  levels.insert(levels.begin(), -kFar);
-  levels.push_back(kFar);
-  for (std::size_t k = 1; k + 1 < levels.size();) {
-    const auto below = between(samples, levels[k - 1], levels[k]), above = between(samples, levels[k], levels[k + 1]);
-    const auto both = between(samples, levels[k - 1], levels[k + 1]);
-    const double gain = unexplained(both) - unexplained(below) - unexplained(above);
-    if (gain < kLeastExplained * static_cast<double>(both.size())) levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(k));
-    else ++k;
-  }
-  double left = 0;
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) left += unexplained(between(samples, levels[k], levels[k + 1]));
-  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * std::min(unexplained(samples), unexplained_leaning(samples)))) return {};
-  return {levels.begin() + 1, levels.end() - 1};
-}
-
 /// Moves each level to where the boxes on either side explain most.
 void place(std::vector<double>& levels, std::span<const Sample> samples) {
   double step = (samples.back().p.z() - samples.front().p.z()) / kFirstLevels;
@@ -226,6 +215,27 @@ void place(std::vector<double>& levels, std::span<const Sample> samples) {
       }
     }
   }
+}
+
+/// The levels between which a stack's boxes are; none if it is not much better explained so than by one box.
+std::vector<double> levels_of(std::span<const Sample> samples) {
+  std::vector<double> levels = split(samples);
+  if (levels.empty()) return {};
+  place(levels, samples);
+  // The first cuts of a tower may lie within a box: whatever one box between the next levels explains as well is one.
+  levels.insert(levels.begin(), -kFar);
+  levels.push_back(kFar);
+  for (std::size_t k = 1; k + 1 < levels.size();) {
+    const auto below = between(samples, levels[k - 1], levels[k]), above = between(samples, levels[k], levels[k + 1]);
+    const auto both = between(samples, levels[k - 1], levels[k + 1]);
+    const double gain = unexplained(both) - unexplained(below) - unexplained(above);
+    if (gain < kLeastExplained * static_cast<double>(both.size())) levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(k));
+    else ++k;
+  }
+  double left = 0;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) left += unexplained(between(samples, levels[k], levels[k + 1]));
+  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * std::min(unexplained(samples), unexplained_leaning(samples)))) return {};
+  return {levels.begin() + 1, levels.end() - 1};
 }
 
 std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& points, std::size_t most) {
