@@ -27,6 +27,8 @@ constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
 constexpr double kEndSlack = 0.02, kEndSigmas = 1.0, kSlackShare = 0.25;  // m, and of the extent: points that fly beyond a face
 constexpr double kOfSide = 0.15;            // of a side's area: a smaller face is a dent or noise
 constexpr double kSliceQuantile = 0.9;
+constexpr double kStripStep = 3.0;          // spacings or noise, without a point of a strip
+constexpr std::size_t kStripPoints = 4;     // within such a step
 constexpr std::size_t kMostRectanglePoints = 1500;
 
 double quantile(std::vector<double> values, double share) {
@@ -91,6 +93,25 @@ double end_of(const Observation& seen, std::span<const int> points, const Mat3& 
   if (ends.empty())
     for (const auto& b : best) ends.push_back(b[0]);
   return sign * (quantile(ends, kSliceQuantile) + 0.5 * spacing);
+}
+
+/// Where a strip ends that runs on from `end` along the sides next to it: of a top on which something stands, often no more is seen than a strip along
+/// an edge. It lies on a face and has no gap.
+double end_of_strip(const Observation& seen, std::span<const Face* const> faces, const Vec3& out, double end) {
+  std::vector<double> beyond;
+  double step = 0;
+  for (const Face* face : faces) {
+    if (std::abs(face->plane.normal.dot(out)) > kUprightSine) continue;
+    for (const int i : face->points)
+      if (const double at = out.dot(seen.points[i]); at > end) {
+        beyond.push_back(at);
+        step = std::max(step, kStripStep * std::max(seen.graph.spacing[i], seen.graph.sigma[i]));
+      }
+  }
+  std::sort(beyond.begin(), beyond.end());
+  std::size_t last = 0;
+  while (last + kStripPoints < beyond.size() && beyond[last + kStripPoints] - beyond[last] < step) ++last;
+  return last > 0 && beyond[last] > end + 2.0 * step ? beyond[last] : end;
 }
 
 /// The face with the most points, if it is flat and has at least half of them.
@@ -247,7 +268,7 @@ OrientedBox bound(const Observation& seen, std::span<const int> points, std::spa
         if (sign * axes.col(k).dot(face->plane.normal) > kFaceCosine && face->area > 0.3 * largest && sign * end - at < slack)
           outermost = std::max(outermost, at);
       }
-      if (std::isfinite(outermost)) end = sign * outermost;
+      end = std::isfinite(outermost) ? sign * outermost : sign * end_of_strip(seen, faces, sign * axes.col(k), sign * end);
       (sign < 0 ? low : high)[k] = end;
     }
     if (high[k] - low[k] < voxel) {  // thin: what is behind the seen side is not known
