@@ -221,10 +221,12 @@ Mat3 level_axes(const Observation& seen, const DepthView& view, std::span<const 
 
 }  // namespace
 
+bool is_along(const Face& face, const Mat3& axes) { return (axes.transpose() * face.plane.normal).cwiseAbs().maxCoeff() > kAlignedCosine; }
+
 double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes) {
   std::size_t count = 0;
   for (const Face* face : faces)
-    if ((axes.transpose() * face->plane.normal).cwiseAbs().maxCoeff() > kAlignedCosine) count += face->points.size();
+    if (is_along(*face, axes)) count += face->points.size();
   return static_cast<double>(count) / static_cast<double>(points.size());
 }
 

@@ -16,6 +16,8 @@ namespace unseen::cuboids {
 /// to the largest face where that clearly leans; unless the faces that were seen clearly follow the free axes instead.
 Mat3 box_axes(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, bool free_orientation);
 
+/// Whether a face is across one of the axes.
+bool is_along(const Face& face, const Mat3& axes);
 /// Share of the points that lie on faces across one of the axes.
 double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes);
 

@@ -51,10 +51,8 @@ std::vector<std::vector<int>> connected(std::span<const int> members, std::vecto
 
 double fewest_points(std::size_t all) { return std::max(kFewestPiecePoints, kSmallestPiece * static_cast<double>(all)); }
 
-/// Connected pieces of some points on either side of a plane; those too small to tell are left out.
-std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, const std::vector<int>& points, const Plane& plane,
-                          std::vector<signed char>& side) {
-  for (const int i : points) side[i] = plane.signed_distance(seen.points[i]) < 0.0 ? 1 : 2;
+/// Connected pieces of some points on one side (1 or 2) each; those too small to tell are left out.
+std::vector<Piece> pieces_of_sides(const Observation& seen, const Interior& interior, const std::vector<int>& points, std::vector<signed char>& side) {
   std::vector<Piece> pieces;
   for (std::vector<int>& group : connected(points, side, [&](int i) { return seen.graph.neighbours(i); })) {
     if (static_cast<double>(group.size()) < fewest_points(points.size())) continue;
@@ -62,6 +60,35 @@ std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, con
     pieces.push_back(piece_of(seen, interior, std::move(group)));
   }
   return pieces;
+}
+
+std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, const std::vector<int>& points, const Plane& plane,
+                          std::vector<signed char>& side) {
+  for (const int i : points) side[i] = plane.signed_distance(seen.points[i]) < 0.0 ? 1 : 2;
+  return pieces_of_sides(seen, interior, points, side);
+}
+
+/// Parts the faces that lie along the axes from those that do not, as of a plank that leans on a crate. A face along the axes that borders mostly on
+/// ones that are not is of theirs: the narrow side of the plank. What is of no face goes with the nearest.
+std::vector<Piece> cut_by_axes(const Observation& seen, const Interior& interior, const std::vector<Face>& faces, const std::vector<int>& points) {
+  std::vector<signed char> side(seen.points.size(), 0);
+  std::vector<int> owner(seen.points.size(), -2), queue;  // −2 = not of the points
+  for (const int i : points) {
+    owner[i] = interior.face_of_point[i];
+    if (owner[i] >= 0) queue.push_back(i);
+  }
+  for (std::size_t at = 0; at < queue.size(); ++at)
+    for (const int j : seen.graph.neighbours(queue[at]))
+      if (owner[j] == -1) owner[j] = owner[queue[at]], queue.push_back(j);
+  std::vector<char> along(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) along[f] = is_along(faces[f], interior.axes);
+  std::vector<int> balance(faces.size(), 0);  // links to faces along the axes, less those to others
+  for (const int i : points)
+    for (const int j : seen.graph.neighbours(i))
+      if (owner[i] >= 0 && owner[j] >= 0 && owner[i] != owner[j]) balance[owner[i]] += along[owner[j]] ? 1 : -1;
+  for (const int i : points)
+    if (owner[i] >= 0) side[i] = along[owner[i]] && balance[owner[i]] >= 0 ? 1 : 2;
+  return pieces_of_sides(seen, interior, points, side);
 }
 
 /// Free space that a cut of clumps leaves within the pieces' hulls, and the price of these; infinite for what is no cut.
@@ -116,6 +143,9 @@ std::vector<Plane> best_cuts(const Observation& seen, const Interior& interior, 
 double free_of(const std::vector<Piece>& pieces) {
   return std::accumulate(pieces.begin(), pieces.end(), 0.0, [](double sum, const Piece& piece) { return sum + piece.hollow.free; });
 }
+
+/// Whether much less free space is within the hulls of the pieces than within that of the whole.
+bool saves(const Piece& whole, const std::vector<Piece>& cut) { return cut.size() > 1 && free_of(cut) <= (1.0 - kLeastSaving) * whole.hollow.free; }
 
 /// Pieces that one hull may hold as well are one again.
 void join_pieces(const Observation& seen, const Interior& interior, std::vector<Piece>& pieces) {
@@ -178,7 +208,7 @@ std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, 
     std::vector<Piece> parts;
     for (const Plane& plane : hollow_enough ? best_cuts(seen, interior, planes, piece) : std::vector<Plane>()) {
       std::vector<Piece> cut = cut_at(seen, interior, piece.points, plane, side);
-      if (cut.size() < 2 || free_of(cut) > (1.0 - kLeastSaving) * piece.hollow.free) continue;
+      if (!saves(piece, cut)) continue;
       parts = std::move(cut);
       break;
     }
@@ -204,6 +234,16 @@ GroupedFaces faces_of(const Observation& seen, const Groups& groups) {
   result.of_group.resize(groups.size());
   for (const Face& face : result.faces.faces) result.of_group[group[face.points.front()]].push_back(&face);
   return result;
+}
+
+/// The faces that some points are of.
+std::vector<const Face*> faces_within(const GroupedFaces& faces, std::span<const int> points) {
+  std::set<int> ids;
+  for (const int i : points)
+    if (const int face = faces.faces.face_of_point[i]; face >= 0) ids.insert(face);
+  std::vector<const Face*> within;
+  for (const int id : ids) within.push_back(&faces.faces.faces[id]);
+  return within;
 }
 
 /// Whether nearly all of what was seen of the pieces are sides of boxes.
@@ -252,15 +292,29 @@ std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthVie
       result.push_back(std::move(part));
       continue;
     }
+    const auto keep = [&](std::vector<int>&& points) { result.push_back({std::move(points), part.label, part.free_orientation, part.stack}); };
     const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], part.free_orientation);
-    for (std::vector<int>& points : cut_at_grooves(seen, view, part.points, faces.of_group[k], axes)) {
-      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, axes);
-      const std::vector<Plane> planes = planes_before(seen, faces.of_group[k], points.size());
-      const double hollow = has_steps(seen, faces.of_group[k], points.size()) ? kHollowStep : kHollow;
-      std::vector<Piece> pieces = cut_apart(seen, interior, planes, points, hollow, context);
-      if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) result.push_back({std::move(points), part.label, part.free_orientation, part.stack});
+    std::vector<std::vector<int>> open = cut_at_grooves(seen, view, part.points, faces.of_group[k], axes);
+    while (!open.empty()) {
+      std::vector<int> points = std::move(open.back());
+      open.pop_back();
+      const std::vector<const Face*> own = faces_within(faces, points);
+      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, box_axes(seen, view, points, own, part.free_orientation));
+      const double hollow = has_steps(seen, own, points.size()) ? kHollowStep : kHollow;
+      const Piece whole = piece_of(seen, interior, points);
+      if (whole.hollow.free <= hollow * whole.hollow.within) {
+        keep(std::move(points));
+        continue;
+      }
+      std::vector<Piece> pieces = cut_by_axes(seen, interior, faces.faces.faces, points);
+      if (saves(whole, pieces) && are_boxes(seen, view, pieces)) {
+        for (Piece& piece : pieces) open.push_back(std::move(piece.points));
+        continue;
+      }
+      pieces = cut_apart(seen, interior, planes_before(seen, own, points.size()), points, hollow, context);
+      if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) keep(std::move(points));
       else
-        for (Piece& piece : pieces) result.push_back({std::move(piece.points), part.label, part.free_orientation, part.stack});
+        for (Piece& piece : pieces) keep(std::move(piece.points));
     }
   }
   return result;
