@@ -95,13 +95,12 @@ double end_of(const Observation& seen, std::span<const int> points, const Mat3& 
   return sign * (quantile(ends, kSliceQuantile) + 0.5 * spacing);
 }
 
-/// Where a strip ends that runs on from `end` along the sides next to it: of a top on which something stands, often no more is seen than a strip along
-/// an edge. It lies on a face and has no gap.
+/// Where a strip of the top ends that runs on from `end`: where something stands on it, often no more is seen than a strip along an edge.
 double end_of_strip(const Observation& seen, std::span<const Face* const> faces, const Vec3& out, double end) {
   std::vector<double> beyond;
   double step = 0;
   for (const Face* face : faces) {
-    if (std::abs(face->plane.normal.dot(out)) > kUprightSine) continue;
+    if (std::abs(face->plane.normal.dot(out)) > kUprightSine || face->plane.normal.z() < kFaceCosine) continue;
     for (const int i : face->points)
       if (const double at = out.dot(seen.points[i]); at > end) {
         beyond.push_back(at);
