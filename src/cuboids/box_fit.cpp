@@ -104,10 +104,13 @@ double end_of_strip(const Observation& seen, std::span<const Face* const> faces,
     for (const int i : face->points)
       if (const double at = out.dot(seen.points[i]); at > end) {
         beyond.push_back(at);
-        step = std::max(step, kStripStep * std::max(seen.graph.spacing[i], seen.graph.sigma[i]));
+        step += kStripStep * std::max(seen.graph.spacing[i], seen.graph.sigma[i]);
       }
   }
+  if (beyond.empty()) return end;
+  step /= static_cast<double>(beyond.size());
   std::sort(beyond.begin(), beyond.end());
+  if (beyond.front() > end + step) return end;
   std::size_t last = 0;
   while (last + kStripPoints < beyond.size() && beyond[last + kStripPoints] - beyond[last] < step) ++last;
   return last > 0 && beyond[last] > end + 2.0 * step ? beyond[last] : end;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "cuboids/box_fit.h"
@@ -57,13 +58,16 @@ double share_on_surface(const Observation& seen, std::span<const int> points, co
   return static_cast<double>(count) / static_cast<double>(points.size());
 }
 
-/// Of each part, whether it is but a remnant of another one, whose box is known better: a strip of a top that something stands on.
+/// Of each part, whether it is but a remnant of another one that is none, and whose box is known better: a strip of a top that something stands on.
 std::vector<char> find_remnants(const Observation& seen, const std::vector<ObjectPart>& parts, const std::vector<std::optional<OrientedBox>>& boxes) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return parts[a].points.size() > parts[b].points.size(); });
   std::vector<char> remnant(parts.size(), 0);
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    remnant[k] = parts[k].label.empty() && std::any_of(parts.begin(), parts.end(), [&](const ObjectPart& other) {
-      const auto& box = boxes[&other - parts.data()];
-      return box && other.label.empty() && parts[k].points.size() < kRemnant * other.points.size() && share_on_surface(seen, parts[k].points, *box) > kOnSurface;
+  for (const std::size_t k : order)
+    remnant[k] = parts[k].label.empty() && std::any_of(order.begin(), order.end(), [&](std::size_t other) {
+      return boxes[other] && !remnant[other] && parts[other].label.empty() && static_cast<double>(parts[k].points.size()) < kRemnant * static_cast<double>(parts[other].points.size()) &&
+             share_on_surface(seen, parts[k].points, *boxes[other]) > kOnSurface;
     });
   return remnant;
 }
@@ -110,6 +114,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     cuboid.visible_points = points.size();
     cuboid.label = part.label;
     cuboid.stack = part.stack;
+    cuboid.level = part.level;
     cuboid.object = object_of(part);
     const auto density = frame.densities.find(part.label);
     cuboid.density = density == frame.densities.end() ? options.density : density->second;
@@ -127,6 +132,8 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     if (filled_share(view, set_down(seen, part.points, box), voxel_of(part)) >= options.fill) boxes[k] = box;
   }
   const std::vector<char> remnant = find_remnants(seen, parts, boxes);
+  if (const auto count = std::count(remnant.begin(), remnant.end(), 1); count > 0)
+    context.message(fmt::format("{} strips on the surface of a larger box count as part of it", count));
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];

@@ -25,7 +25,7 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
   std::vector<ObjectPart> parts;
   {
     const Stage stage(context, summary, "objects");
-    parts = cut_hollow_parts(seen, view, find_objects(frame, seen, options, context), context);
+    parts = cut_parts(seen, view, find_objects(frame, seen, options, context), context);
     summary.counts.emplace_back("parts", parts.size());
   }
   {

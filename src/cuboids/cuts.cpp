@@ -3,10 +3,9 @@
 #include "cuboids/cuts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -51,7 +50,7 @@ std::vector<std::vector<int>> connected(std::span<const int> members, std::vecto
 
 double fewest_points(std::size_t all) { return std::max(kFewestPiecePoints, kSmallestPiece * static_cast<double>(all)); }
 
-/// Connected pieces of some points on one side (1 or 2) each; those too small to tell are left out.
+/// Connected pieces of some points on one side (1 or 2; 0 = on neither) each; those too small to tell are left out.
 std::vector<Piece> pieces_of_sides(const Observation& seen, const Interior& interior, const std::vector<int>& points, std::vector<signed char>& side) {
   std::vector<Piece> pieces;
   for (std::vector<int>& group : connected(points, side, [&](int i) { return seen.graph.neighbours(i); })) {
@@ -62,6 +61,7 @@ std::vector<Piece> pieces_of_sides(const Observation& seen, const Interior& inte
   return pieces;
 }
 
+/// The same on either side of a plane.
 std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, const std::vector<int>& points, const Plane& plane,
                           std::vector<signed char>& side) {
   for (const int i : points) side[i] = plane.signed_distance(seen.points[i]) < 0.0 ? 1 : 2;
@@ -88,7 +88,10 @@ std::vector<Piece> cut_by_axes(const Observation& seen, const Interior& interior
       if (owner[i] >= 0 && owner[j] >= 0 && owner[i] != owner[j]) balance[owner[i]] += along[owner[j]] ? 1 : -1;
   for (const int i : points)
     if (owner[i] >= 0) side[i] = along[owner[i]] && balance[owner[i]] >= 0 ? 1 : 2;
-  return pieces_of_sides(seen, interior, points, side);
+  std::vector<Piece> pieces = pieces_of_sides(seen, interior, points, side);
+  const std::size_t kept = std::accumulate(pieces.begin(), pieces.end(), std::size_t{0}, [](std::size_t sum, const Piece& piece) { return sum + piece.points.size(); });
+  if (static_cast<double>(kept) < kKept * static_cast<double>(points.size())) pieces.clear();
+  return pieces;
 }
 
 /// Free space that a cut of clumps leaves within the pieces' hulls, and the price of these; infinite for what is no cut.
@@ -236,13 +239,14 @@ GroupedFaces faces_of(const Observation& seen, const Groups& groups) {
   return result;
 }
 
-/// The faces that some points are of.
+/// The faces that have most of their points among some.
 std::vector<const Face*> faces_within(const GroupedFaces& faces, std::span<const int> points) {
-  std::set<int> ids;
+  std::map<int, std::size_t> counts;
   for (const int i : points)
-    if (const int face = faces.faces.face_of_point[i]; face >= 0) ids.insert(face);
+    if (const int face = faces.faces.face_of_point[i]; face >= 0) ++counts[face];
   std::vector<const Face*> within;
-  for (const int id : ids) within.push_back(&faces.faces.faces[id]);
+  for (const auto& [id, count] : counts)
+    if (2 * count > faces.faces.faces[id].points.size()) within.push_back(&faces.faces.faces[id]);
   return within;
 }
 
@@ -258,31 +262,9 @@ bool are_boxes(const Observation& seen, const DepthView& view, const std::vector
   return explained >= kFlat * all;
 }
 
-/// Points on either side of the grooves that run across a part which looks like one box.
-std::vector<std::vector<int>> cut_at_grooves(const Observation& seen, const DepthView& view, const std::vector<int>& points, std::span<const Face* const> faces,
-                                             const Mat3& axes) {
-  std::vector<std::vector<int>> pieces{points};
-  if (explained_share(points, faces, axes) < kFlat) return pieces;
-  const OrientedBox box = bound(seen, points, faces, axes, 0.0);
-  for (const int axis : {0, 1})
-    for (const double place : grooves(view, box, axis)) {
-      const Plane plane{axes.col(axis), axes.col(axis).dot(box.center) + place};
-      std::vector<std::vector<int>> parted;
-      for (std::vector<int>& piece : pieces) {
-        std::array<std::vector<int>, 2> sides;
-        for (const int i : piece) sides[plane.signed_distance(seen.points[i]) > 0.0].push_back(i);
-        const auto is_large = [&](const std::vector<int>& side) { return static_cast<double>(side.size()) > fewest_points(points.size()); };
-        if (std::all_of(sides.begin(), sides.end(), is_large)) parted.insert(parted.end(), std::make_move_iterator(sides.begin()), std::make_move_iterator(sides.end()));
-        else parted.push_back(std::move(piece));
-      }
-      pieces = std::move(parted);
-    }
-  return pieces;
-}
-
 }  // namespace
 
-std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context) {
+std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context) {
   const GroupedFaces faces = faces_of(seen, parts);
   std::vector<ObjectPart> result;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -292,14 +274,17 @@ std::vector<ObjectPart> cut_hollow_parts(const Observation& seen, const DepthVie
       result.push_back(std::move(part));
       continue;
     }
-    const auto keep = [&](std::vector<int>&& points) { result.push_back({std::move(points), part.label, part.free_orientation, part.stack}); };
-    const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], part.free_orientation);
-    std::vector<std::vector<int>> open = cut_at_grooves(seen, view, part.points, faces.of_group[k], axes);
+    const auto keep = [&](std::vector<int>&& points) { result.push_back({std::move(points), {}, false, part.stack, part.level}); };
+    const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], false);
+    std::vector<std::vector<int>> open{part.points};
+    if (explained_share(part.points, faces.of_group[k], axes) >= kFlat)  // it looks like one box
+      open = cut_at_grooves(seen, view, part.points, bound(seen, part.points, faces.of_group[k], axes, 0.0), fewest_points(part.points.size()));
     while (!open.empty()) {
+      context.check();
       std::vector<int> points = std::move(open.back());
       open.pop_back();
       const std::vector<const Face*> own = faces_within(faces, points);
-      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, box_axes(seen, view, points, own, part.free_orientation));
+      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, box_axes(seen, view, points, own, false));
       const double hollow = has_steps(seen, own, points.size()) ? kHollowStep : kHollow;
       const Piece whole = piece_of(seen, interior, points);
       if (whole.hollow.free <= hollow * whole.hollow.within) {

@@ -70,7 +70,7 @@ bool is_groove(const DepthView& view, const OrientedBox& gap, int apart) {
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
 /// are apart along the third, and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
-  if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack)) return std::nullopt;
+  if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack && a.level != b.level)) return std::nullopt;
   if (!a.label.empty()) return joined_object(view, a, b, tolerance);
   const auto axes_b = aligned_axes(a.initial, b.initial);
   if (!axes_b) return std::nullopt;
@@ -132,6 +132,7 @@ std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std
         if (blocked) continue;
         cuboids[i].initial = cuboids[i].box = *whole;
         cuboids[i].visible_points += cuboids[j].visible_points;
+        if (cuboids[i].stack < 0) cuboids[i].stack = cuboids[j].stack, cuboids[i].level = cuboids[j].level;
         cuboids.erase(cuboids.begin() + static_cast<std::ptrdiff_t>(j));
         tolerance.erase(tolerance.begin() + static_cast<std::ptrdiff_t>(j));
         ++fused;

@@ -3,7 +3,9 @@
 #include "cuboids/groove.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 
 namespace unseen::cuboids {
 namespace {
@@ -40,26 +42,43 @@ std::vector<double> grooves(const DepthView& view, const OrientedBox& box, int a
   const double half = box.half_size[axis];
   const int count = std::clamp(static_cast<int>(2.0 * half / view.spacing(box.center)), 1, kMostPlaces);
   const auto place = [&](int i) { return half * ((2.0 * i + 1.0) / count - 1.0); };
-  std::vector<double> most(count, 0.0), least(count, 1.0);  // of the sides
-  for (int i = 0; i < count; ++i)
-    for (const double share : seen_through(view, box, axis, place(i))) most[i] = std::max(most[i], share), least[i] = std::min(least[i], share);
+  enum class Place { unknown, open, closed, mixed };
+  std::vector<Place> places;
+  for (int i = 0; i < count; ++i) {
+    const std::vector<double> shares = seen_through(view, box, axis, place(i));
+    const auto all = [&](auto test) { return std::all_of(shares.begin(), shares.end(), test); };
+    if (shares.empty()) places.push_back(Place::unknown);
+    else if (all([](double share) { return share < kClosed; })) places.push_back(Place::closed);
+    else if (shares.size() > 1 && all([](double share) { return share > kOpen; })) places.push_back(Place::open);
+    else places.push_back(Place::mixed);
+  }
+  const auto begin = places.begin();
+  const auto is_closed = [&](int from, int to) { return static_cast<double>(std::count(begin + from, begin + to, Place::closed)) >= kLeastSide * count; };
   std::vector<double> found;
-  int closed = 0;
-  for (int i = 0; i < count;) {
-    const auto is_open = [&](int k) { return most[k] > 0.0 && least[k] > kOpen; };
-    if (!is_open(i)) {
-      closed += most[i] < kClosed;
-      ++i;
-      continue;
-    }
-    int end = i;
-    while (end < count && is_open(end)) ++end;
-    const auto after = std::count_if(most.begin() + end, most.end(), [](double share) { return share < kClosed; });
-    if (end - i >= kNarrowest && end - i <= kWidest * count && closed >= kLeastSide * count && static_cast<double>(after) >= kLeastSide * count)
-      found.push_back(0.5 * (place(i) + place(end - 1)));
-    i = end;
+  for (int i = 0; i < count; ++i) {
+    if (places[i] != Place::open) continue;
+    const int first = i;
+    while (i < count && places[i] == Place::open) ++i;
+    if (i - first >= kNarrowest && i - first <= kWidest * count && is_closed(0, first) && is_closed(i, count)) found.push_back(0.5 * (place(first) + place(i - 1)));
   }
   return found;
+}
+
+std::vector<std::vector<int>> cut_at_grooves(const Observation& seen, const DepthView& view, const std::vector<int>& points, const OrientedBox& box, double fewest) {
+  std::vector<std::vector<int>> pieces{points};
+  for (const int axis : {0, 1})
+    for (const double place : grooves(view, box, axis)) {
+      const Plane plane{box.axes.col(axis), box.axes.col(axis).dot(box.center) + place};
+      std::vector<std::vector<int>> parted;
+      for (std::vector<int>& piece : pieces) {
+        std::array<std::vector<int>, 2> sides;
+        for (const int i : piece) sides[plane.signed_distance(seen.points[i]) > 0.0].push_back(i);
+        if (static_cast<double>(std::min(sides[0].size(), sides[1].size())) > fewest) parted.insert(parted.end(), std::make_move_iterator(sides.begin()), std::make_move_iterator(sides.end()));
+        else parted.push_back(std::move(piece));
+      }
+      pieces = std::move(parted);
+    }
+  return pieces;
 }
 
 }  // namespace unseen::cuboids

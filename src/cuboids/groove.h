@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "cuboids/depth_view.h"
-#include "unseen/core/geometry.h"
+#include "cuboids/observation.h"
 
 namespace unseen::cuboids {
 
@@ -13,7 +12,11 @@ namespace unseen::cuboids {
 /// that is farther than the side. Sides across the axis have no such line; those with too few measurements say nothing.
 std::vector<double> seen_through(const DepthView& view, const OrientedBox& box, int axis, double place);
 
-/// Places along an axis where a groove runs round all sides that look at the camera: there are two bodies, one beside the other.
+/// Places along an axis where a groove runs across two sides that look at the camera: there are bodies on either side of each. A recess in one side may
+/// be a joint.
 std::vector<double> grooves(const DepthView& view, const OrientedBox& box, int axis);
+
+/// Points on either side of the grooves that run across a part's box, where both sides have enough points.
+std::vector<std::vector<int>> cut_at_grooves(const Observation& seen, const DepthView& view, const std::vector<int>& points, const OrientedBox& box, double fewest);
 
 }  // namespace unseen::cuboids

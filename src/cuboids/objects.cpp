@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "cuboids/faces.h"
-#include "cuboids/stack_levels.h"
 #include "cuboids/observation.h"
+#include "cuboids/stack_levels.h"
 #include "cuboids/strokes.h"
 #include "cuboids/supports.h"
 
@@ -83,21 +83,25 @@ std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, c
   for (auto& [pair, border] : borders) {
     const Face &a = faces.faces[pair.first], &b = faces.faces[pair.second];
     judge(border, a, b, seen.graph.sigma[a.points.front()], seen.graph.spacing[a.points.front()]);
-    const int piece = piece_of_point[a.points.front()], other = piece_of_point[b.points.front()];
-    if (piece > 0 && other > 0 && piece != other) border.concave = true, border.joins = false;
     if (border.joins) order.emplace_back(border.links, pair);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<int> object(faces.faces.size());
   std::iota(object.begin(), object.end(), 0);
+  std::vector<int> piece_of_object;  // 0 = of none
+  for (const Face& face : faces.faces) piece_of_object.push_back(piece_of_point[face.points.front()]);
   for (const auto& [links, pair] : order) {
     const int to = object[pair.first], from = object[pair.second];
     if (to == from) continue;
+    const int piece = piece_of_object[to], other = piece_of_object[from];
+    if (piece > 0 && other > 0 && piece != other) continue;
     const bool apart = std::any_of(borders.begin(), borders.end(), [&](const auto& entry) {
       const int p = object[entry.first.first], q = object[entry.first.second];
       return entry.second.concave && entry.second.links >= kFewestBorderLinks && ((p == to && q == from) || (p == from && q == to));
     });
-    if (!apart) std::replace(object.begin(), object.end(), from, to);
+    if (apart) continue;
+    std::replace(object.begin(), object.end(), from, to);
+    piece_of_object[to] = std::max(piece, other);
   }
   return object;
 }
@@ -198,11 +202,10 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   }
   context.check();
   std::vector<int> object = group;
-  Stacks stacks{std::vector<int>(group.size(), 0), {-1}};
+  Stacks stacks = no_stacks(seen);
   if (!masked) {
     std::vector<int> joined = join_surfaces(seen, group, stacks.piece_of_point);
-    stacks = find_stacks(seen, components(seen, joined));
-    context.check();
+    if (!frame.is_fused()) stacks = find_stacks(seen, components(seen, joined), context);
     if (stacks.stack_of_piece.size() > 1) joined = join_surfaces(seen, group, stacks.piece_of_point);
     const int first = static_cast<int>(labels.size()) + 2;
     for (std::size_t i = 0; i < object.size(); ++i)
@@ -226,7 +229,8 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
       part.label = labels[g - 1];
       part.free_orientation = true;
     }
-    for (const int i : points) part.stack = std::max(part.stack, stacks.stack_of_piece[stacks.piece_of_point[i]]);
+    for (const int i : points) part.level = std::max(part.level, stacks.piece_of_point[i]);
+    part.stack = stacks.stack_of_piece[part.level];
     part.points = std::move(points);
     parts.push_back(std::move(part));
   }

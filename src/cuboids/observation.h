@@ -31,7 +31,7 @@ struct ObjectPart {
   std::vector<int> points;  ///< indices into Observation::points
   std::string label;
   bool free_orientation = false;  ///< its axes come from its two largest planes, not from up
-  int stack = -1;                 ///< parts with the same number were cut apart at a level: they are not one again
+  int stack = -1, level = -1;     ///< parts on different levels of the stack with this number are not one; −1 = of none
 };
 
 /// Stage 1: cloud, world, supports (design page, step 1).

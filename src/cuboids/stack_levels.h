@@ -8,14 +8,15 @@
 
 namespace unseen::cuboids {
 
-/// Levels that parts are cut at. The pieces between are numbered 1, 2, … over all stacks.
+/// Parts that are cut at levels. The pieces between these are numbered 1, 2, … over all stacks, from below in each.
 struct Stacks {
   std::vector<int> piece_of_point;  ///< 0 = in no stack
   std::vector<int> stack_of_piece;  ///< 0, 1, …; that of piece 0 is −1
 };
+Stacks no_stacks(const Observation& seen);
 
-/// Parts (lists of points) whose surface boxes one upon the other explain much better than one box can are stacks: a crate that is turned a little
-/// on another has its sides nearly in line with those below, and no gap.
-Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>& parts);
+/// Parts (lists of points) whose surface boxes one upon another explain much better than one box can are stacks: a crate that is turned a little
+/// on another has its sides nearly in line with those below, and no gap. Normals must look away from the bodies, as those of one depth image do.
+Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>& parts, const Context& context);
 
 }  // namespace unseen::cuboids

@@ -105,6 +105,16 @@ TEST(Links, AreNotToWhatWouldFallOver) {
   EXPECT_EQ(held[2], 1);
 }
 
+TEST(Fuse, LeavesApartWhatIsOnDifferentLevelsOfAStack) {
+  // Three boxes in line whose gaps nobody could look into; the first is of no stack.
+  for (const bool apart : {false, true}) {
+    std::vector<Cuboid> cuboids = {cuboid(box({-0.43, 0, 0.1}, {0.4, 0.3, 0.2})), cuboid(box({0, 0, 0.1}, {0.4, 0.3, 0.2})), cuboid(box({0.43, 0, 0.1}, {0.4, 0.3, 0.2}))};
+    for (int k = 1; k < 3; ++k) cuboids[k].stack = 0, cuboids[k].level = apart ? k : 1;
+    std::vector<double> tolerance(3, 0.006);
+    EXPECT_EQ(fuse_pieces(view_of(1.0f), cuboids, tolerance), apart ? 1u : 2u);
+  }
+}
+
 TEST(Fuse, LeavesApartWhatHasAFreeGap) {
   // Two long boxes in line with 3 cm between them: seen through (depth 9 m), or covered (1 m).
   for (const float depth : {9.0f, 1.0f}) {

@@ -110,7 +110,7 @@ inline Perceived perceive(const RgbdFrame& frame, Options options = {}, int thre
   Perceived p;
   p.seen = observe(frame, options, context);
   const DepthView view(frame, p.seen.T_world_camera, depth_noise(frame, options));
-  p.parts = cut_hollow_parts(p.seen, view, find_objects(frame, p.seen, options, context), context);
+  p.parts = cut_parts(p.seen, view, find_objects(frame, p.seen, options, context), context);
   p.fitted = p.cuboids = fit_cuboids(frame, p.seen, p.parts, view, options, context);
   align_to_image_edges(frame, p.seen, view, p.cuboids, options, context);
   return p;

@@ -31,7 +31,7 @@ struct Cuboid {
   std::size_t visible_points = 0;
   double density = 300.0;  ///< kg/m³
   std::string label;       ///< of the mask or stroke it came from, or empty
-  int stack = -1;          ///< boxes with the same number were seen to be different ones, one upon another; −1 = in no stack
+  int stack = -1, level = -1;  ///< boxes on different levels of the stack with this number were seen to be different ones; −1 = in none
   int object = -1;         ///< boxes with the same number are pieces of one thing, and rigid together; −1 = a thing of its own
   bool by_symmetry = false;  ///< wholly unseen, completed by symmetry (thesis Section 4.4.1)
 
