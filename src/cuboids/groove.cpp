@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kSamples = 32, kFewestKnown = 8;
 constexpr double kOpen = 0.7, kClosed = 0.3;  // shares that were seen through: in a groove, and beside it
-constexpr int kMostPlaces = 400;
+constexpr double kMostPlaces = 400;
 constexpr double kLeastSide = 0.1;            // of the length: what is beside a groove
 constexpr double kWidest = 0.2;               // of the length: more is no groove
 constexpr int kNarrowest = 2;                 // places
@@ -40,7 +40,7 @@ std::vector<double> seen_through(const DepthView& view, const OrientedBox& box, 
 
 std::vector<double> grooves(const DepthView& view, const OrientedBox& box, int axis) {
   const double half = box.half_size[axis];
-  const int count = std::clamp(static_cast<int>(2.0 * half / view.spacing(box.center)), 1, kMostPlaces);
+  const int count = static_cast<int>(std::clamp(2.0 * half / view.spacing(box.center), 1.0, kMostPlaces));
   const auto place = [&](int i) { return half * ((2.0 * i + 1.0) / count - 1.0); };
   enum class Place { unknown, open, closed, mixed };
   std::vector<Place> places;
