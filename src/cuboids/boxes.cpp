@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "cuboids/box_fit.h"
 #include "cuboids/reach.h"
@@ -59,15 +58,15 @@ double share_on_surface(const Observation& seen, std::span<const int> points, co
 }
 
 /// Of each part, whether it is but a remnant of another one that is none, and whose box is known better: a strip of a top that something stands on.
-std::vector<char> find_remnants(const Observation& seen, const std::vector<ObjectPart>& parts, const std::vector<std::optional<OrientedBox>>& boxes) {
+std::vector<char> find_remnants(const Observation& seen, const std::vector<ObjectPart>& parts, const std::vector<OrientedBox>& boxes, const std::vector<char>& full) {
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return parts[a].points.size() > parts[b].points.size(); });
   std::vector<char> remnant(parts.size(), 0);
   for (const std::size_t k : order)
     remnant[k] = parts[k].label.empty() && std::any_of(order.begin(), order.end(), [&](std::size_t other) {
-      return boxes[other] && !remnant[other] && parts[other].label.empty() && static_cast<double>(parts[k].points.size()) < kRemnant * static_cast<double>(parts[other].points.size()) &&
-             share_on_surface(seen, parts[k].points, *boxes[other]) > kOnSurface;
+      return full[other] && !remnant[other] && parts[other].label.empty() && static_cast<double>(parts[k].points.size()) < kRemnant * static_cast<double>(parts[other].points.size()) &&
+             share_on_surface(seen, parts[k].points, boxes[other]) > kOnSurface;
     });
   return remnant;
 }
@@ -121,30 +120,30 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     cuboids.push_back(cuboid);
     set_downs.push_back(set_down(seen, points, box));
   };
-  std::vector<Mat3> axes(parts.size());
-  std::vector<std::optional<OrientedBox>> boxes(parts.size());  // none = not full
+  std::vector<OrientedBox> boxes(parts.size());
+  std::vector<char> full(parts.size());
   const auto voxel_of = [&](const ObjectPart& part) { return std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest); };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];
-    axes[k] = box_axes(seen, view, part.points, faces_of[k], part.free_orientation);
-    const OrientedBox box = bound(seen, part.points, faces_of[k], axes[k], voxel_of(part));
-    if (filled_share(view, set_down(seen, part.points, box), voxel_of(part)) >= options.fill) boxes[k] = box;
+    const double voxel = voxel_of(part);
+    boxes[k] = bound(seen, part.points, faces_of[k], box_axes(seen, view, part.points, faces_of[k], part.free_orientation), voxel);
+    full[k] = filled_share(view, set_down(seen, part.points, boxes[k]), voxel) >= options.fill;
   }
-  const std::vector<char> remnant = find_remnants(seen, parts, boxes);
+  const std::vector<char> remnant = find_remnants(seen, parts, boxes, full);
   if (const auto count = std::count(remnant.begin(), remnant.end(), 1); count > 0)
     context.message(fmt::format("{} strips on the surface of a larger box count as part of it", count));
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];
     if (remnant[k]) continue;
-    if (boxes[k]) {
-      add(part, part.points, *boxes[k]);
+    if (full[k]) {
+      add(part, part.points, boxes[k]);
       continue;
     }
-    const OrientedBox standing = set_down(seen, part.points, bound(seen, part.points, faces_of[k], axes[k], voxel_of(part)));
-    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, standing, voxel_of(part), options.fill))
-      add(part, slab, bound(seen, slab, {}, axes[k], voxel_of(part)));
+    const double voxel = voxel_of(part);
+    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, set_down(seen, part.points, boxes[k]), voxel, options.fill))
+      add(part, slab, bound(seen, slab, {}, boxes[k].axes, voxel));
   }
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     if (!stands_on_another(cuboids, cuboids[i].initial)) cuboids[i].box = cuboids[i].initial = set_downs[i];

@@ -199,10 +199,10 @@ bool has_steps(const Observation& seen, const std::vector<const Face*>& faces, s
 }
 
 /// Cuts as long as it saves free space, and joins again what one hull may hold.
-std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const std::vector<int>& points, double hollow,
+std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, const std::vector<Plane>& planes, const Piece& whole, double hollow,
                              Context& context) {
   std::vector<signed char> side(seen.points.size(), 0);
-  std::vector<Piece> open{piece_of(seen, interior, points)}, done;
+  std::vector<Piece> open{whole}, done;
   while (!open.empty()) {
     context.check();
     Piece piece = std::move(open.back());
@@ -296,7 +296,7 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
         for (Piece& piece : pieces) open.push_back(std::move(piece.points));
         continue;
       }
-      pieces = cut_apart(seen, interior, planes_before(seen, own, points.size()), points, hollow, context);
+      pieces = cut_apart(seen, interior, planes_before(seen, own, points.size()), whole, hollow, context);
       if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) keep(std::move(points));
       else
         for (Piece& piece : pieces) keep(std::move(piece.points));
