@@ -9,7 +9,6 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kThin = 4.0;       // tolerances
 constexpr double kNudge = 0.03;     // g: sticks on end bear less, and do not stay for long
 constexpr double kWorth = 0.5;      // of the unrest of those that it joins: what a fixed contact must end
 constexpr int kMostWork = 5000;     // fixed contacts that may be tried, times bodies, or little more
@@ -47,12 +46,6 @@ Exact exactly(const Problem& exact, const Arrangement& arrangement, const std::v
   return out;
 }
 
-/// Whether the tolerance of its contacts is much of a box's thickness.
-bool is_thin(const Problem& problem, const Arrangement& arrangement, int body) {
-  const std::size_t i = body - problem.supports_count();
-  return 2.0 * arrangement.boxes[i].half_size.minCoeff() < kThin * problem.tolerance[i];
-}
-
 }  // namespace
 
 void hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
@@ -62,7 +55,7 @@ void hold_together(const Problem& problem, const std::vector<char>& held, Arrang
   for (int work = 0; now.total > 0.0 && work <= kMostWork;) {
     const auto may_help = [&](const Touch& t) {
       return !now.is_firm[t.a] && !now.is_firm[t.b] && now.group[t.a] != now.group[t.b] && !problem.are_known_objects(t.a, t.b) &&
-             (now.falls(t.a) || now.falls(t.b)) && (is_thin(problem, arrangement, t.a) || is_thin(problem, arrangement, t.b));
+             (now.falls(t.a) || now.falls(t.b));
     };
     std::optional<Exact> best;
     std::array<int, 2> link;

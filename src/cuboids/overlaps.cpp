@@ -86,15 +86,17 @@ void part_overlaps(const DepthView& view, Problem& problem) {
 
 void end_overlaps(const DepthView& view, const Problem& problem, const std::vector<char>& held, Arrangement& arrangement) {
   const std::vector<int> group = structure_of(problem, arrangement, {}, std::vector<char>(problem.bodies(), 0)).group;
+  const Problem written = as_written(problem);
   for (int b = problem.supports_count(); b < problem.bodies(); ++b)
     for (int a = 0; a < b; ++a) {
       if (group[a] == group[b]) continue;
-      const auto there = meet(problem, arrangement.boxes, a, b);
+      const Problem& shown = held[b] ? problem : written;  // what is held may be below a ground that ends
+      const auto there = meet(shown, arrangement.boxes, a, b);
       if (!there || there->gap > -kSlightly) continue;
-      const Retreat retreat = retreat_of(view, problem, arrangement.boxes, a, b, *there);
+      const Retreat retreat = retreat_of(view, shown, arrangement.boxes, a, b, *there);
       if (retreat.cuboid >= 0) {
         Arrangement parted = with_face(problem, arrangement, retreat.cuboid, retreat.face, -retreat.length);
-        if (depth_of(problem, parted.boxes, a, b) < kSlightly && stands(problem, parted, held)) {
+        if (depth_of(shown, parted.boxes, a, b) < kSlightly && stands(problem, parted, held)) {
           arrangement = std::move(parted);
           continue;
         }

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "cuboids/synth_builder.h"
+#include "unseen/cuboids/engine_shapes.h"
 #endif
 
 namespace unseen::cuboids {
@@ -35,8 +36,6 @@ namespace {
 constexpr double kStep = 1e-3, kGravity = 9.81;
 constexpr int kStepsBetweenLooks = 10;
 constexpr double kFlungApart = 1.0;  // share of its longest side that each box counts as moved if the simulation blows up
-constexpr double kSlab = 0.02;  // m, thickness of a support that has a lower side
-constexpr double kApart = 5e-6;  // m: faces that coincide exactly give MuJoCo 2.2 contacts of depth −0.6 m
 
 /// The rigid body that each box belongs to: the lowest index of those fixed together; −1 = a support.
 std::vector<int> bodies_of(const RefereeScene& scene) {
@@ -68,25 +67,14 @@ Mat3 upright_on(const Vec3& normal) {
   return axes;
 }
 
-/// A half space; but a desk that stands above the ground has a lower side, with things below.
-std::string support_text(const Support& support, bool is_ground) {
-  const Vec3& normal = support.plane.normal;
-  const bool has_lower_side = !is_ground && normal.z() > 0.9 && support.outline.size() > 2;
-  if (!has_lower_side)
-    return fmt::format("<geom type=\"plane\" size=\"0 0 1\" pos=\"{}\" quat=\"{}\"/>",
-                       vector_text(support.plane.offset * normal),
-                       quaternion_text(upright_on(normal)));
-  Mat3 axes;
-  axes.col(0) = (support.outline[1] - support.outline[0]).normalized();
-  axes.col(1) = normal.cross(axes.col(0));
-  axes.col(2) = normal;
-  Eigen::AlignedBox3d reach;
-  for (const Vec3& corner : support.outline) reach.extend(axes.transpose() * corner);
-  Vec3 center = reach.center(), half = reach.sizes() / 2;
-  center.z() = support.plane.offset - kSlab / 2;
-  half.z() = kSlab / 2;
-  return fmt::format("<geom type=\"box\" size=\"{}\" pos=\"{}\" quat=\"{}\"/>", vector_text(half),
-                     vector_text(axes * center), quaternion_text(axes));
+std::string support_text(const RefereeScene& scene, std::size_t support) {
+  const Plane& plane = scene.supports[support].plane;
+  if (is_half_space(scene.supports, support, scene.boxes))
+    return fmt::format("<geom type=\"plane\" size=\"0 0 1\" pos=\"{}\" quat=\"{}\"/>", vector_text(plane.offset * plane.normal),
+                       quaternion_text(upright_on(plane.normal)));
+  const OrientedBox slab = slab_behind(plane, scene.supports[support].outline);
+  return fmt::format("<geom type=\"box\" size=\"{}\" pos=\"{}\" quat=\"{}\"/>", vector_text(slab.half_size), vector_text(slab.center),
+                     quaternion_text(slab.axes));
 }
 
 /// Bodies keep the world's axes and origin, so that a geom's place in its body is its place in the world at the start.
@@ -99,12 +87,12 @@ std::string model_text(const RefereeScene& scene, const std::vector<int>& body, 
                  "<option timestep=\"{}\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\" "
                  "gravity=\"{}\"/><default><geom friction=\"{} 0.005 0.0001\" solref=\"0.004 1\"/></default><worldbody>",
                  points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kStep, vector_text(kGravity * down), scene.friction);
-  for (std::size_t i = 0; i < scene.supports.size(); ++i) text += support_text(scene.supports[i], i == 0);
+  for (std::size_t i = 0; i < scene.supports.size(); ++i) text += support_text(scene, i);
   const auto add_boxes = [&](int of) {
     for (std::size_t i = 0; i < scene.boxes.size(); ++i)
       if (body[i] == of)
         fmt::format_to(out, "<geom name=\"box{}\" type=\"box\" size=\"{}\" pos=\"{}\" quat=\"{}\" mass=\"{}\"/>", i,
-                       vector_text(scene.boxes[i].half_size.array() - kApart), vector_text(scene.boxes[i].center),
+                       vector_text(half_size_for_mujoco(scene.boxes[i])), vector_text(scene.boxes[i].center),
                        quaternion_text(scene.boxes[i].axes), scene.masses[i]);
   };
   add_boxes(-1);

@@ -7,6 +7,7 @@
 #include "report/cuboid_parts.h"
 #include "report/html.h"
 #include "report/palette.h"
+#include "unseen/cuboids/engine_shapes.h"
 #include "unseen/report/cuboids_files.h"
 
 namespace unseen::report {
@@ -19,54 +20,32 @@ std::string quaternion_of(const Mat3& rotation) {
   return fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}", q.w(), q.x(), q.y(), q.z());
 }
 
-constexpr double kApart = 1e-4;  // m: faces that coincide give MuJoCo 2.2 contacts of depth −0.6 m
-
 /// The box as a geom, its place relative to `origin`.
 std::string geom_of(const cuboids::Cuboid& c, const Vec3& origin, int color) {
   const Rgb rgb = frame_color(color);
   return fmt::format(
       "<geom name=\"{} geom\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" mass=\"{:.9g}\" rgba=\"{:.3f} {:.3f} "
       "{:.3f} 1\"/>\n",
-      escape(name_of(c)), attribute_of(c.box.center - origin), quaternion_of(c.box.axes), attribute_of((c.box.half_size.array() - kApart).max(0.5 * c.box.half_size.array())), c.mass(),
+      escape(name_of(c)), attribute_of(c.box.center - origin), quaternion_of(c.box.axes), attribute_of(cuboids::half_size_for_mujoco(c.box)), c.mass(),
       rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
 }
 
-/// Axes of a plane: z along its normal.
-Mat3 plane_axes(const Vec3& normal, const Vec3& along) {
-  Mat3 axes;
-  axes.col(2) = normal;
-  axes.col(0) = (along - along.dot(normal) * normal).normalized();
-  axes.col(1) = normal.cross(axes.col(0));
-  return axes;
-}
-
-/// Whether nothing is below: then it goes on under what hides it.
-bool is_ground(const Completion& c, const cuboids::Support& s) {
-  return &s == &c.supports.front() && std::all_of(c.cuboids.begin(), c.cuboids.end(), [&](const cuboids::Cuboid& cuboid) {
-           return s.plane.signed_distance(cuboid.box.center) > 0.0;
-         });
-}
-
-/// A support without end is MuJoCo's plane, whose half space is solid, and so is the ground; another one with an outline is a slab
-/// below it, for there may be things beside or under a desk.
-std::string support_geom(const Completion& c, const cuboids::Support& s) {
+/// MuJoCo's plane has a solid half space; what ends is a slab.
+std::string support_geom(const Completion& c, std::size_t support, std::span<const OrientedBox> boxes) {
+  const cuboids::Support& s = c.supports[support];
   const std::string name = escape(name_of(s));
   const std::string look = "rgba=\"0.8 0.8 0.78 1\"";
-  if (s.outline.size() < 3 || is_ground(c, s)) {
-    const Vec3 origin = s.plane.project(Vec3::Zero());
+  if (cuboids::is_half_space(c.supports, support, boxes)) {
+    Mat3 axes;
+    axes.col(0) = any_orthogonal(s.plane.normal);
+    axes.col(1) = s.plane.normal.cross(axes.col(0));
+    axes.col(2) = s.plane.normal;
     return fmt::format("    <geom name=\"{}\" type=\"plane\" pos=\"{}\" quat=\"{}\" size=\"0 0 1\" {}/>\n", name,
-                       attribute_of(origin), quaternion_of(plane_axes(s.plane.normal, any_orthogonal(s.plane.normal))),
-                       look);
+                       attribute_of(s.plane.project(Vec3::Zero())), quaternion_of(axes), look);
   }
-  constexpr double kThickness = 0.02;  // m
-  const Mat3 axes = plane_axes(s.plane.normal, s.outline[1] - s.outline[0]);
-  Eigen::AlignedBox2d reach;
-  for (const Vec3& p : s.outline) reach.extend(Vec2(axes.col(0).dot(p), axes.col(1).dot(p)));
-  const Vec3 half(0.5 * reach.sizes().x(), 0.5 * reach.sizes().y(), 0.5 * kThickness);
-  const Vec3 center = axes.col(0) * reach.center().x() + axes.col(1) * reach.center().y() +
-                      s.plane.normal * (s.plane.offset - 0.5 * kThickness);
+  const OrientedBox slab = cuboids::slab_behind(s.plane, s.outline);
   return fmt::format("    <geom name=\"{}\" type=\"box\" pos=\"{}\" quat=\"{}\" size=\"{}\" {}/>\n", name,
-                     attribute_of(center), quaternion_of(axes), attribute_of(half), look);
+                     attribute_of(slab.center), quaternion_of(slab.axes), attribute_of(slab.half_size), look);
 }
 
 std::string group_body(const Completion& c, const RigidGroup& group) {
@@ -105,7 +84,9 @@ std::string cuboids_mjcf(const Completion& c, double friction) {
       "  <visual>\n    <global offwidth=\"1280\" offheight=\"960\"/>\n  </visual>\n"
       "  <worldbody>\n    <light directional=\"true\" pos=\"0 0 3\" dir=\"0.2 0.3 -1\"/>\n",
       contacts, 3 * contacts, numbers, friction);
-  for (const cuboids::Support& support : c.supports) text += support_geom(c, support);
+  std::vector<OrientedBox> all;
+  for (const cuboids::Cuboid& cuboid : c.cuboids) all.push_back(cuboid.box);
+  for (std::size_t i = 0; i < c.supports.size(); ++i) text += support_geom(c, i, all);
   for (const RigidGroup& group : rigid_groups(c)) text += group_body(c, group);
   return text + "  </worldbody>\n</mujoco>\n";
 }

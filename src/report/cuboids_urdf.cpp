@@ -8,6 +8,7 @@
 
 #include "report/cuboid_parts.h"
 #include "report/palette.h"
+#include "unseen/cuboids/engine_shapes.h"
 #include "unseen/report/cuboids_files.h"
 
 namespace unseen::report {
@@ -71,19 +72,8 @@ Link link_of(const cuboids::Cuboid& c, std::size_t index) {
 
 /// URDF has no planes: a slab below the outline.
 Link link_of(const cuboids::Support& s, const Completion& c) {
-  constexpr double kThickness = 0.02;  // m
-  const std::vector<Vec3> polygon = polygon_of(s, c);
-  Mat3 axes;
-  axes.col(2) = s.plane.normal;
-  const Vec3 side = polygon[1] - polygon[0];
-  axes.col(0) = (side - side.dot(axes.col(2)) * axes.col(2)).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  Eigen::AlignedBox3d reach;
-  for (const Vec3& p : polygon) reach.extend(Vec3(axes.transpose() * p));
-  Vec3 center = reach.center(), size = reach.sizes();
-  center.z() = s.plane.offset - 0.5 * kThickness;
-  size.z() = kThickness;
-  return {fmt::format("support_{}", s.id), {axes, axes * center}, size, 0.0, {204, 204, 199}};
+  const OrientedBox slab = cuboids::slab_behind(s.plane, polygon_of(s, c));
+  return {fmt::format("support_{}", s.id), {slab.axes, slab.center}, 2.0 * slab.half_size, 0.0, {204, 204, 199}};
 }
 
 /// A joint for every box: fixed contacts as a tree from each group's root, whatever cycles they make.

@@ -37,6 +37,14 @@ TEST(HoldTogether, WhatMasksTellApartStaysApart) {
 
 TEST(HoldTogether, WhatStandsAloneNeedsNobody) { EXPECT_TRUE(fixed_in(card_beside_block(0.0, 0.02)).empty()); }
 
+TEST(HoldTogether, WhatBalancesOnAnEdgeIsHeldByWhatIsBelow) {
+  // Its centre of mass lies half a millimetre, or 1 cm, inside the edge of the pillar.
+  for (const double inside : {0.0005, 0.01}) {
+    const Problem problem = problem_of({box({0, 0, 0.1}, {0.1, 0.1, 0.2}), box({0.05 - inside, 0, 0.25}, {0.1, 0.1, 0.1})});
+    EXPECT_EQ(fixed_in(problem).size(), inside < 0.001 ? 1u : 0u) << inside;
+  }
+}
+
 TEST(HoldTogether, NobodyHoldsWhatStandsFarOff) {
   Problem problem = card_beside_block(0.04);
   problem.cuboids[1].initial.center.x() -= 0.1;

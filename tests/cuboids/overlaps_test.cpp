@@ -70,6 +70,22 @@ TEST(Overlaps, ThatAreLeftAtTheEndEndToo) {
   EXPECT_EQ(a.fixed[0], (std::array{3, 4}));
 }
 
+TEST(Overlaps, WithTheGroundBeyondItsOutlineEndUnlessHeld) {
+  // Tilted: inside the outline its lower side is above the ground, beyond it 5 mm below.
+  OrientedBox tilted = box({0, 0, 0}, {0.2, 0.2, 0.2});
+  tilted.axes = Eigen::AngleAxisd(0.1, Vec3::UnitY()).toRotationMatrix();
+  tilted.center = Vec3(1.05, 0, -0.005) - tilted.axes * Vec3(0.1, 0, -0.1);
+  Problem problem = problem_of({tilted});
+  problem.supports[0].outline = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  for (const char held : {0, 1}) {
+    Arrangement a = arrange(problem, {});
+    end_overlaps(view_of(1.0f), problem, {0, held}, a);
+    const double lowest = (a.boxes[0].center + a.boxes[0].axes * a.boxes[0].half_size.cwiseProduct(Vec3(1, 1, -1))).z();
+    EXPECT_NEAR(lowest, held ? -0.005 : 0.0, 1e-4);
+    EXPECT_TRUE(a.fixed.empty());
+  }
+}
+
 /// A post, and a box beside its upper end with 3 cm between them.
 Problem hung() { return problem_of({box({0, 0, 0.5}, {0.2, 0.2, 1.0}), box({0.23, 0, 0.8}, {0.2, 0.2, 0.2})}); }
 

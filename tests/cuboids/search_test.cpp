@@ -104,6 +104,17 @@ TEST(Search, LetsACarrierGrowUnderTheCentreOfMass) {
   EXPECT_NEAR(a.boxes[0].center.x() + a.boxes[0].half_size.x(), 0.01, 0.011);  // at the centre of mass of the upper one
 }
 
+TEST(Hypotheses, WhatWasSeenToEndDoesNotGrowBesideAnother) {
+  // The upper box begins 1 mm beyond the lower one. Sides that were seen may still move by what the fit leaves open.
+  for (const double room : {2.4, 3.0}) {
+    const Problem problem = problem_of({cuboid({0, 0, 0.1}, {0.2, 0.2, 0.2}), cuboid({0.201, 0, 0.25}, {0.2, 0.2, 0.1})}, room * kTolerance);
+    const auto beside = std::count_if(problem.hypotheses.begin(), problem.hypotheses.end(), [&](const Hypothesis& h) {
+      return !problem.is_support(h.a) && h.kind == ContactKind::fixed && h.moves.size() == 1 && h.moves[0].face < 4;
+    });
+    EXPECT_EQ(beside > 0, room > 2.5) << room;
+  }
+}
+
 TEST(Search, FixesOnlyWhatNothingElseHolds) {
   // A block beside a pillar, with no room to grow: it can only be part of it.
   const Choice choice = search(problem_of({cuboid({0, 0, 0.2}, {0.1, 0.1, 0.4}), cuboid({0.1, 0, 0.3}, {0.1, 0.1, 0.05})}, 0.0));

@@ -92,5 +92,43 @@ INSTANTIATE_TEST_SUITE_P(Families, SynthPhysics, testing::ValuesIn(synth_familie
   return name;
 });
 
+/// A plate on the ground and a box on it, both turned.
+RefereeScene plate_and_box(double yaw) {
+  const auto turned = [](const Vec3& center, const Vec3& size, double angle) {
+    return OrientedBox{center, Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix(), 0.5 * size};
+  };
+  RefereeScene scene;
+  scene.supports = {{0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}}};
+  scene.boxes = {turned({0, 0, 0.0273}, {0.2639, 0.1794, 0.0546}, 0.3), turned({0.01, 0.02, 0.11875}, {0.1467, 0.1059, 0.1283}, yaw)};
+  scene.masses = {1.0, 1.0};
+  return scene;
+}
+
+TEST(Referee, FacesThatCoincideStayTogether) {
+  if (!has_referee()) GTEST_SKIP() << "built without MuJoCo";
+  for (const double yaw : {0.0, 0.092, 0.3, 0.502, 0.508, 0.521, 1.0}) EXPECT_LT(farthest(plate_and_box(yaw), kDown, 0.3), 0.01) << yaw;
+}
+
+TEST(Referee, AWallEndsAtItsOutlineAndTheGroundDoesNot) {
+  if (!has_referee()) GTEST_SKIP() << "built without MuJoCo";
+  RefereeScene scene = plate_and_box(0.3);
+  const std::vector<Vec3> seen = {{1, -0.03, 0}, {2, -0.03, 0}, {2, -0.03, 1}, {1, -0.03, 1}};  // the boxes stand beside it, across its plane
+  scene.supports[0].outline = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}};
+  scene.supports.push_back({1, SupportKind::wall, {Vec3::UnitY(), -0.03}, seen});
+  EXPECT_LT(farthest(scene, kDown, 0.3), 0.01);
+  scene.supports[1].outline.clear();
+  EXPECT_GT(farthest(scene, kDown, 0.3), 0.1);
+}
+
+TEST(Referee, WithSomethingBelowTheGroundItEndsToo) {
+  if (!has_referee()) GTEST_SKIP() << "built without MuJoCo";
+  RefereeScene scene = plate_and_box(0.3);
+  scene.supports[0].outline = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}, {0.5, 0.5, 0}, {-0.5, 0.5, 0}};
+  scene.supports.push_back({1, SupportKind::ground, {Vec3::UnitZ(), -0.55}, {}});
+  scene.boxes.push_back({{0, 0, -0.5}, Mat3::Identity(), {0.05, 0.05, 0.05}});
+  scene.masses.push_back(1.0);
+  EXPECT_LT(farthest(scene, kDown, 0.3), 0.01);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids
