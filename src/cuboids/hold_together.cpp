@@ -9,12 +9,13 @@
 namespace unseen::cuboids {
 namespace {
 
+constexpr double kThin = 4.0;       // tolerances
 constexpr double kNudge = 0.03;     // g: sticks on end bear less, and do not stay for long
 constexpr double kWorth = 0.5;      // of the unrest of those that it joins: what a fixed contact must end
 constexpr int kMostWork = 5000;     // fixed contacts that may be tried, times bodies, or little more
 
-/// Statics of boxes that only touch where they do.
-struct Exact {
+/// What stays at rest under a nudge from any side.
+struct Rest {
   std::vector<int> group;
   std::vector<char> is_firm;   ///< a body
   std::vector<double> unrest;  ///< a body: what is out of balance, summed over loads; 0 = at rest
@@ -28,15 +29,15 @@ struct Exact {
   }
 };
 
-Exact exactly(const Problem& exact, const Arrangement& arrangement, const std::vector<Touch>& touches, const std::vector<char>& held) {
-  const Structure s = structure_of(exact, arrangement, touches, held);
-  Exact out{s.group, std::vector<char>(exact.bodies(), 0), std::vector<double>(exact.bodies(), 0.0), 0.0};
-  for (int i = 0; i < exact.bodies(); ++i) out.is_firm[i] = s.bodies[s.group[i]].is_static;
+Rest rest_of(const Problem& problem, const Arrangement& arrangement, const std::vector<Touch>& touches, const std::vector<char>& held) {
+  const Structure s = structure_of(problem, arrangement, touches, held);
+  Rest out{s.group, std::vector<char>(problem.bodies(), 0), std::vector<double>(problem.bodies(), 0.0), 0.0};
+  for (int i = 0; i < problem.bodies(); ++i) out.is_firm[i] = s.bodies[s.group[i]].is_static;
   std::vector<Vec3> forces;
   for (const Vec3& load : load_cases(kNudge)) {
     const Balance b = balance(s.bodies, s.contacts, load, forces);
     forces = b.forces;
-    for (int i = exact.supports_count(); i < exact.bodies(); ++i) {
+    for (int i = problem.supports_count(); i < problem.bodies(); ++i) {
       const double unrest = b.motion[s.group[i]].norm();
       if (out.is_firm[i] || unrest < kAtRest) continue;
       out.unrest[i] += unrest;
@@ -46,18 +47,27 @@ Exact exactly(const Problem& exact, const Arrangement& arrangement, const std::v
   return out;
 }
 
+/// Whether the tolerance of its contacts is much of a box's thickness.
+bool is_thin(const Problem& problem, const Arrangement& arrangement, int body) {
+  const std::size_t i = body - problem.supports_count();
+  return 2.0 * arrangement.boxes[i].half_size.minCoeff() < kThin * problem.tolerance[i];
+}
+
 }  // namespace
 
 void hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
   const Problem exact = as_written(problem);
   const std::vector<Touch> near = touching_pairs(problem, arrangement), touches = touching_pairs(exact, arrangement);
-  Exact now = exactly(exact, arrangement, touches, held);
+  const Rest within_tolerance = rest_of(problem, arrangement, near, held);
+  Rest now = rest_of(exact, arrangement, touches, held);
+  // What is thick, and would not fall if near contacts counted, moves no farther than to them.
+  const auto may_fall = [&](int body) { return now.falls(body) && (within_tolerance.falls(body) || is_thin(problem, arrangement, body)); };
   for (int work = 0; now.total > 0.0 && work <= kMostWork;) {
     const auto may_help = [&](const Touch& t) {
       return !now.is_firm[t.a] && !now.is_firm[t.b] && now.group[t.a] != now.group[t.b] && !problem.are_known_objects(t.a, t.b) &&
-             (now.falls(t.a) || now.falls(t.b));
+             (may_fall(t.a) || may_fall(t.b));
     };
-    std::optional<Exact> best;
+    std::optional<Rest> best;
     std::array<int, 2> link;
     for (const Touch& touch : near) {
       if (!may_help(touch)) continue;
@@ -65,7 +75,7 @@ void hold_together(const Problem& problem, const std::vector<char>& held, Arrang
       context.check();
       Arrangement joined = arrangement;
       joined.fix({touch.a, touch.b});
-      Exact then = exactly(exact, joined, touches, held);
+      Rest then = rest_of(exact, joined, touches, held);
       const double before = now.unrest_of_group(touch.a) + now.unrest_of_group(touch.b);
       if (now.total - then.total < kWorth * before || (best && then.total >= best->total)) continue;
       best = std::move(then);

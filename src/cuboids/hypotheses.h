@@ -17,7 +17,7 @@ namespace unseen::cuboids {
 using Rooms = std::vector<Extension>;
 Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, const std::vector<double>& tolerance);
 
-/// Whether nobody could have seen that a box reaches `distance` farther at a face: there, its upper edge is hidden,
+/// Whether nobody could have seen that a box reaches `distance` farther at a face: there, nearly all of its upper edge is hidden,
 /// on what was measured, or outside the picture. Where nothing was measured, the surface of the box would have been.
 bool is_covered(const DepthView& view, const OrientedBox& box, int face, double distance, double tolerance);
 

@@ -54,7 +54,7 @@ bool is_covered(const DepthView& view, const OrientedBox& box, int face, double 
     known += space != DepthView::Space::missing;
     covered += space != DepthView::Space::free && space != DepthView::Space::missing;
   }
-  return 2 * covered > known && known >= kFewestEdgeSamples;
+  return 8 * covered >= 7 * known && known >= kFewestEdgeSamples;
 }
 
 static Extension room_of(const DepthView& view, const Cuboid& cuboid, double tolerance) {

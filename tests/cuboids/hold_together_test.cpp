@@ -37,6 +37,13 @@ TEST(HoldTogether, WhatMasksTellApartStaysApart) {
 
 TEST(HoldTogether, WhatStandsAloneNeedsNobody) { EXPECT_TRUE(fixed_in(card_beside_block(0.0, 0.02)).empty()); }
 
+TEST(HoldTogether, AThickBoardThatLeansOnABlockOnlyLeans) {
+  Problem problem = card_beside_block(-0.3, 0.03);
+  EXPECT_TRUE(fixed_in(problem).empty());
+  for (double& tolerance : problem.tolerance) tolerance = 0.01;  // as thin as a card now
+  EXPECT_EQ(fixed_in(problem).size(), 1u);
+}
+
 TEST(HoldTogether, WhatBalancesOnAnEdgeIsHeldByWhatIsBelow) {
   // Its centre of mass lies half a millimetre, or 1 cm, inside the edge of the pillar.
   for (const double inside : {0.0005, 0.01}) {

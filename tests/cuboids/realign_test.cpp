@@ -101,6 +101,15 @@ TEST(IsCovered, ThroughPixelsWithoutDepthAlongTheEdge) {
   EXPECT_FALSE(covered());
 }
 
+TEST(IsCovered, NotWhereAPartOfTheEdgeWouldShow) {
+  // What stands in front hides the edge from its left end to a place near its middle, or beyond its right end.
+  for (const double right : {0.01, 0.035, 0.08}) {
+    Scene scene;
+    scene.boxes = {upright(0.5 * (right - 0.2), 0.7, 0, {0.2 + right, 0.08, 0.3}, 0), upright(0.0, 0.85, 0, {0.25, 0.1, 0.2}, 0)};
+    EXPECT_EQ(is_covered(DepthView(render(scene), camera_of(scene), scene.noise), scene.boxes[1], 3, 0.05, 0.005), right > 0.07) << right;
+  }
+}
+
 TEST(Realign, KeepsWhatNobodySaw) {
   const Scene scene = two_boxes();
   Completion c = given(scene, 0.0, 0.0, 1);
