@@ -90,7 +90,7 @@ std::vector<Candidate> first_candidates(const Problem& problem, double time, int
       candidates.push_back({guess, {}, 0.0});
       candidates.back().fit.state = std::move(state);
     }
-    if (problem.orientations.empty() || !problem.scattered || !problem.touches()) break;
+    if (problem.orientations.empty() || !problem.scattered) break;
   }
   return candidates;
 }
@@ -98,7 +98,7 @@ std::vector<Candidate> first_candidates(const Problem& problem, double time, int
 }  // namespace
 
 Solution best_fit(const Problem& problem, double time, int starts, Context& context) {
-  constexpr double kHopeless = 40.0, kPoor = 15.0, kUnlikely = 30.0;  // above the best: as found, with touching shapes, with their own noise
+  constexpr double kHopeless = 40.0, kPoor = 40.0, kUnlikely = 30.0;  // above the best: as found, with touching shapes, with their own noise
   constexpr double kFarOff = 300.0;
   constexpr std::size_t kTried = 16;
   constexpr int kNoiseRounds = 3;
