@@ -45,10 +45,7 @@ std::string plural(std::size_t count, const std::string& one, const std::string&
 }
 
 void print_summary(const cuboids::Completion& c, const CuboidsArguments& args) {
-  const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(), [](const cuboids::Cuboid& cuboid) {
-    constexpr double kNoticeable = 1.01;
-    return cuboid.box.volume() > kNoticeable * cuboid.initial.volume();
-  });
+  const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(), [](const cuboids::Cuboid& cuboid) { return cuboid.is_completed(); });
   if (c.cuboids.empty()) {
     fmt::print("no box found\n");
   } else {

@@ -29,8 +29,8 @@ void add_box_table(SceneBuilder& scene, const Completion& c) {
     const std::string remark = in(c.unsupported)              ? "unsupported"
                                : in(c.held_outside)           ? "held outside"
                                : cuboid.by_symmetry           ? "by symmetry"
-                               : hidden_boxes(cuboid).empty() ? ""
-                                                              : "completed";
+                               : cuboid.is_completed()        ? "completed"
+                                                              : "";
     rows.push_back({name_of(cuboid), sizes(cuboid.box), cuboid.by_symmetry ? "–" : sizes(cuboid.initial), remark,
                     number(cuboid.mass()), cuboid.visible_points});
   }
@@ -77,8 +77,7 @@ Json facts_of(const Completion& c, const OptionTable& options) {
   const auto fact = [&](std::string_view name, std::string value) {
     facts.push_back({{"name", name}, {"value", std::move(value)}});
   };
-  const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(),
-                                       [](const auto& cuboid) { return !hidden_boxes(cuboid).empty(); });
+  const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(), [](const auto& cuboid) { return cuboid.is_completed(); });
   fact("stands", c.stability.stable ? "yes" : "no");
   fact("boxes", std::to_string(c.cuboids.size()));
   fact("boxes completed", std::to_string(completed));

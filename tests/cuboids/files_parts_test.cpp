@@ -50,6 +50,15 @@ TEST(CuboidParts, WhatWasNotExtendedIsWhollySeen) {
   EXPECT_NEAR(hidden_boxes(c.cuboids[2])[0].volume(), c.cuboids[2].box.volume(), 1e-12);
 }
 
+TEST(CuboidParts, CompletedIsWhatHoldsMoreThanWasSeen) {
+  cuboids::Completion c = cuboids::sample_completion();
+  EXPECT_TRUE(c.cuboids[0].is_completed());
+  EXPECT_FALSE(c.cuboids[1].is_completed());
+  EXPECT_TRUE(c.cuboids[2].is_completed());  // by symmetry
+  c.cuboids[1].box.half_size.x() *= 1.005;
+  EXPECT_FALSE(c.cuboids[1].is_completed());
+}
+
 TEST(CuboidParts, FixedContactsMakeGroups) {
   cuboids::Completion c = cuboids::sample_tower(6, 0);
   for (const int k : {1, 2, 4}) {  // 1–2, 2–3 and 4–5 of ids 1…6

@@ -36,6 +36,8 @@ struct Cuboid {
   bool by_symmetry = false;  ///< wholly unseen, completed by symmetry (thesis Section 4.4.1)
 
   double mass() const { return density * box.volume(); }
+  /// Whether it holds a part that nobody saw, by more than a percent of its volume.
+  bool is_completed() const { return by_symmetry || box.volume() > 1.01 * initial.volume(); }
 };
 
 enum class ContactKind { touching, fixed };
