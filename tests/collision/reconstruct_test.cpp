@@ -48,6 +48,23 @@ TEST(Reconstruct, ReadsTheRestitutionOfABouncingBall) {
   EXPECT_FALSE(r.mass_ratio);
 }
 
+TEST(Reconstruct, FastSpinsWhoseOrientationsAreBetterThanTold) {
+  SynthOptions synth;
+  synth.scene = "spin";
+  synth.spin = 20.0;
+  synth.fps = 60;
+  synth.video = false;
+  synth.centroid_noise = 0.01;
+  synth.orientation_noise = 2.0;
+  const SynthShot shot = simulate(synth);
+  Options options;
+  options.orientation_noise = 2.0;  // more than they have
+  Context context;
+  const Reconstruction r = reconstruct(shot.shot, options, context);
+  ASSERT_TRUE(r.restitution);
+  EXPECT_NEAR(r.restitution->value, *shot.truth.restitution, 0.03);  // with one noise only: 0.29 off
+}
+
 TEST(Reconstruct, ABounceOfWhichThreeTenthsOfASecondAreUnseen) {
   Shot shot = bouncing_ball(0.7, 55);
   const double impact = std::sqrt(2.0 * 0.8 / 9.81);
