@@ -64,7 +64,7 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
     Moments moments;
     double variance;  // m², of the offset
     Vec3 normal;
-    std::vector<int> cells;
+    std::vector<std::size_t> patches;
   };
   std::vector<Patch> patches(cells.size());
   parallel_blocks(context, cells.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -92,13 +92,21 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
       model.surfaces.push_back({frame[j], local[j], {}, 0.0});
     }
     sums[to].moments += patch.moments;
-    sums[to].cells.insert(sums[to].cells.end(), patch.cells.begin(), patch.cells.end());
+    sums[to].patches.push_back(j);
     model.parts.push_back({to, patch.cells});
   }
   parallel_blocks(context, sums.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      std::sort(sums[s].cells.begin(), sums[s].cells.end());
-      model.surfaces[s].support = make_patch(grid, space, std::move(sums[s].cells), least_noise);
+      Patch& support = model.surfaces[s].support;
+      support = std::move(patches[sums[s].patches.front()]);
+      if (sums[s].patches.size() == 1) continue;
+      std::vector<int> all = std::move(support.cells);
+      for (std::size_t k = 1; k < sums[s].patches.size(); ++k) {
+        const std::vector<int>& more = patches[sums[s].patches[k]].cells;
+        all.insert(all.end(), more.begin(), more.end());
+      }
+      std::sort(all.begin(), all.end());
+      support = make_patch(grid, space, std::move(all), least_noise);
     }
   });
 }
