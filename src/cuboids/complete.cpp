@@ -80,6 +80,18 @@ void warn_of_free_space(const DepthView& view, const std::vector<double>& tolera
   context.warn(fmt::format("what was seen is no box, and its box holds space that was seen free: cuboid {}", named));
 }
 
+/// Contacts count within tolerance, but an engine that is given the boxes moves some until they touch.
+void warn_of_falls(const std::vector<char>& falls, const Completion& result, Context& context) {
+  std::vector<int> named;
+  for (std::size_t i = 0; i < result.cuboids.size(); ++i)
+    if (falls[result.supports.size() + i]) named.push_back(result.cuboids[i].id);
+  if (named.empty()) return;
+  const std::size_t more = named.size() > kMostNamed ? named.size() - kMostNamed : 0;
+  named.resize(named.size() - more);
+  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a nudge of {} g: cuboid {}{}",
+                           kNudge, fmt::join(named, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
+}
+
 }  // namespace
 
 bool stands(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held) {
@@ -145,8 +157,9 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   lower_residual(problem, rooms, admissible, choice.held, arrangement, context);
   end_overlaps(view, problem, choice.held, arrangement);
   settle(problem, choice.held, arrangement, context);
-  hold_together(problem, choice.held, arrangement, context);
+  const std::vector<char> falls = hold_together(problem, choice.held, arrangement, context);
   describe(problem, choice.held, arrangement, result);
+  warn_of_falls(falls, result, context);
   warn_of_free_space(view, problem.tolerance, result.cuboids, context);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {

@@ -70,6 +70,7 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
 /// no longer than what hangs. Such bodies are no longer `held`.
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context);
 
+inline constexpr double kNudge = 0.03;   ///< g: sticks on end bear less, and do not stay for long
 inline constexpr double kAtRest = 1e-3;  ///< residual: what is not balanced falls in the end, if slowly
 /// The same problem without tolerance: only what touches in the boxes as they will be written touches, but for a rest that counts for nothing.
 Problem as_written(const Problem& problem);
@@ -79,8 +80,8 @@ Problem as_written(const Problem& problem);
 void settle(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
 
 /// What stands only because contacts within tolerance count, and would fall as the boxes are, becomes rigid with a neighbour: slivers of round
-/// things on their edges, mostly. What masks tell apart stays apart.
-void hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+/// things on their edges, mostly. What masks tell apart stays apart. Returns those that would still fall (a mark a body).
+std::vector<char> hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
 
 /// Lowers the residual, at rest and under the pushes, by moves of faces: hidden ones within their rooms, seen ones within
 /// noise (Eq. 4.4). Every step is one that `admissible` allows.

@@ -10,7 +10,6 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kThin = 4.0;       // tolerances
-constexpr double kNudge = 0.03;     // g: sticks on end bear less, and do not stay for long
 constexpr double kWorth = 0.5;      // of the unrest of those that it joins: what a fixed contact must end
 constexpr int kMostWork = 5000;     // fixed contacts that may be tried, times bodies, or little more
 
@@ -55,7 +54,7 @@ bool is_thin(const Problem& problem, const Arrangement& arrangement, int body) {
 
 }  // namespace
 
-void hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
+std::vector<char> hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
   const Problem exact = as_written(problem);
   const std::vector<Touch> near = touching_pairs(problem, arrangement), touches = touching_pairs(exact, arrangement);
   const Rest within_tolerance = rest_of(problem, arrangement, near, held);
@@ -85,6 +84,9 @@ void hold_together(const Problem& problem, const std::vector<char>& held, Arrang
     now = std::move(*best);
     arrangement.fix(link);
   }
+  std::vector<char> falls(problem.bodies(), 0);
+  for (int i = 0; i < problem.bodies(); ++i) falls[i] = now.falls(i);
+  return falls;
 }
 
 }  // namespace unseen::cuboids

@@ -35,6 +35,16 @@ TEST(HoldTogether, WhatMasksTellApartStaysApart) {
   EXPECT_TRUE(fixed_in(problem).empty());
 }
 
+TEST(HoldTogether, TellsWhatWouldStillFall) {
+  Context context;
+  for (const bool far : {false, true}) {
+    Problem problem = card_beside_block(0.04);
+    if (far) problem.cuboids[1].initial.center.x() -= 0.1;
+    Arrangement arrangement = arrange(problem, {});
+    EXPECT_EQ(hold_together(problem, std::vector<char>(3, 0), arrangement, context), (std::vector<char>{0, far, 0}));
+  }
+}
+
 TEST(HoldTogether, WhatStandsAloneNeedsNobody) { EXPECT_TRUE(fixed_in(card_beside_block(0.0, 0.02)).empty()); }
 
 TEST(HoldTogether, AThickBoardThatLeansOnABlockOnlyLeans) {
