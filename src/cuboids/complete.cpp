@@ -66,6 +66,14 @@ void describe(const Problem& problem, const std::vector<char>& held, const Arran
   }
 }
 
+/// "3, 5, 8", or the first few of many.
+std::string first_of(const std::vector<std::string>& names) {
+  const std::size_t shown = std::min(names.size(), kMostNamed);
+  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
+  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  return text;
+}
+
 /// Boxes around what is no box hold space that the camera saw free.
 void warn_of_free_space(const DepthView& view, const std::vector<double>& tolerance, const std::vector<Cuboid>& cuboids, Context& context) {
   std::vector<std::pair<double, int>> free;
@@ -73,23 +81,19 @@ void warn_of_free_space(const DepthView& view, const std::vector<double>& tolera
     if (const double share = 1.0 - filled_share(view, cuboids[i].box, tolerance[i]); share > kMuchFree) free.emplace_back(-share, cuboids[i].id);
   if (free.empty()) return;
   std::sort(free.begin(), free.end());
-  std::string named;
-  for (std::size_t k = 0; k < std::min(free.size(), kMostNamed); ++k)
-    named += fmt::format("{}{} ({:.0f} %)", k > 0 ? ", " : "", free[k].second, -100.0 * free[k].first);
-  if (free.size() > kMostNamed) named += fmt::format(" and {} more", free.size() - kMostNamed);
-  context.warn(fmt::format("what was seen is no box, and its box holds space that was seen free: cuboid {}", named));
+  std::vector<std::string> named;
+  for (const auto& [share, id] : free) named.push_back(fmt::format("{} ({:.0f} %)", id, -100.0 * share));
+  context.warn("what was seen is no box, and its box holds space that was seen free: cuboid " + first_of(named));
 }
 
 /// Contacts count within tolerance, but an engine that is given the boxes moves some until they touch.
 void warn_of_falls(const std::vector<char>& falls, const Completion& result, Context& context) {
-  std::vector<int> named;
+  std::vector<std::string> named;
   for (std::size_t i = 0; i < result.cuboids.size(); ++i)
-    if (falls[result.supports.size() + i]) named.push_back(result.cuboids[i].id);
+    if (falls[result.supports.size() + i]) named.push_back(std::to_string(result.cuboids[i].id));
   if (named.empty()) return;
-  const std::size_t more = named.size() > kMostNamed ? named.size() - kMostNamed : 0;
-  named.resize(named.size() - more);
-  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a nudge of {} g: cuboid {}{}",
-                           kNudge, fmt::join(named, ", "), more > 0 ? fmt::format(" and {} more", more) : ""));
+  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a nudge of {} g: cuboid {}",
+                           kNudge, first_of(named)));
 }
 
 }  // namespace

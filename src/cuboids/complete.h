@@ -80,7 +80,8 @@ Problem as_written(const Problem& problem);
 void settle(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
 
 /// What stands only because contacts within tolerance count, and would fall as the boxes are, becomes rigid with a neighbour: slivers of round
-/// things on their edges, mostly. What masks tell apart stays apart. Returns those that would still fall (a mark a body).
+/// things on their edges, and what balances on an edge. What is thick and only leans, and what masks tell apart, stays apart. Returns those
+/// that would still fall (a mark a body).
 std::vector<char> hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
 
 /// Lowers the residual, at rest and under the pushes, by moves of faces: hidden ones within their rooms, seen ones within

@@ -57,8 +57,10 @@ bool is_thin(const Problem& problem, const Arrangement& arrangement, int body) {
 std::vector<char> hold_together(const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
   const Problem exact = as_written(problem);
   const std::vector<Touch> near = touching_pairs(problem, arrangement), touches = touching_pairs(exact, arrangement);
-  const Rest within_tolerance = rest_of(problem, arrangement, near, held);
+  std::vector<char> falls(problem.bodies(), 0);
   Rest now = rest_of(exact, arrangement, touches, held);
+  if (now.total == 0.0) return falls;
+  const Rest within_tolerance = rest_of(problem, arrangement, near, held);
   // What is thick, and would not fall if near contacts counted, moves no farther than to them.
   const auto may_fall = [&](int body) { return now.falls(body) && (within_tolerance.falls(body) || is_thin(problem, arrangement, body)); };
   for (int work = 0; now.total > 0.0 && work <= kMostWork;) {
@@ -84,7 +86,6 @@ std::vector<char> hold_together(const Problem& problem, const std::vector<char>&
     now = std::move(*best);
     arrangement.fix(link);
   }
-  std::vector<char> falls(problem.bodies(), 0);
   for (int i = 0; i < problem.bodies(); ++i) falls[i] = now.falls(i);
   return falls;
 }

@@ -9,7 +9,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFacesUp = 0.7;  // cosine: such a face can carry, or be carried
-constexpr double kHidden = 2.5;   // tolerances: a face with less room ends where it was seen to
+constexpr double kRoomBeside = 2.5;  // tolerances: a face with less room ends where it was seen to, and grows beside nothing
 
 /// Everything that the proposals of one scene share.
 struct Proposer {
@@ -21,8 +21,6 @@ struct Proposer {
 
   const OrientedBox& box(int body) const { return problem.cuboid(body).initial; }
   double room(int body, int face) const { return rooms[body - problem.supports_count()][face]; }
-  /// Whether more is hidden beyond a face than what a fit leaves open.
-  bool is_hidden(int body, int face) const { return room(body, face) > kHidden * problem.tolerance[body - problem.supports_count()]; }
   double tolerance(int a, int b) const { return problem.pair_tolerance(std::min(a, b), std::max(a, b)); }
 
   std::optional<double> reach_of(int mover, const OrientedBox& from, int face, int to) const {
@@ -150,7 +148,7 @@ void propose_sideways(Proposer& p, int lower, int upper, int mover) {
 void propose_beside(Proposer& p, int mover, int other) {
   const double overlap = p.tolerance(mover, other);
   for (int face = 0; face < 6; ++face) {
-    if (!p.is_hidden(mover, face)) continue;
+    if (p.room(mover, face) <= kRoomBeside * p.problem.tolerance[mover - p.problem.supports_count()]) continue;
     const Vec3 direction = face_normal(p.box(mover), face);
     const OrientedBox& box = p.box(other);
     const double start = far_end(p.box(mover), direction);
