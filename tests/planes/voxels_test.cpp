@@ -145,8 +145,8 @@ TEST(Voxels, CoarserConservesMoments) {
   }
 }
 
-TEST(Voxels, NeighboursEqualBruteForce) {
-  VoxelGrid grid = test::grid_of(sample(3000, 8), 0.07);
+void expect_neighbours_as_by_brute_force(const PointCloud& cloud) {
+  VoxelGrid grid = test::grid_of(cloud, 0.07);
   Random random(9);
   std::vector<int> farthest_of(grid.size());
   for (int& reach : farthest_of) reach = static_cast<int>(random.index(VoxelGrid::kMostReach + 1));
@@ -165,6 +165,16 @@ TEST(Voxels, NeighboursEqualBruteForce) {
       if (farthest <= reach) expected.push_back(static_cast<int>(i));
     }
     EXPECT_EQ(found, expected);
+  }
+}
+
+TEST(Voxels, NeighboursEqualBruteForce) {
+  expect_neighbours_as_by_brute_force(sample(3000, 8));
+  Random random(10);
+  for (const double height : {2.8, 8.4}) {  // columns of 10 and of 30 blocks
+    PointCloud tower;
+    for (int i = 0; i < 5000; ++i) tower.positions.push_back({random.uniform(0.0, 1.0), random.uniform(0.0, 1.0), height * random.uniform(-0.5, 0.5)});
+    expect_neighbours_as_by_brute_force(tower);
   }
 }
 
