@@ -96,29 +96,6 @@ Neighbourhood SampleTree::around(std::size_t probe, std::size_t points) const {
   return result;
 }
 
-Neighbourhood nearest_in_sample(const Survey& survey, std::size_t probe, std::size_t points) {
-  const Vec3 center = survey.sample[probe];
-  std::vector<std::pair<double, std::uint32_t>> nearest;  // a heap, the farthest first
-  double farthest = std::numeric_limits<double>::infinity();
-  const std::size_t count = survey.sample.size();
-  const Vec3* sample = survey.sample.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double squared = (sample[i] - center).squaredNorm();
-    if (squared >= farthest) continue;
-    if (nearest.size() == points) {
-      std::pop_heap(nearest.begin(), nearest.end());
-      nearest.pop_back();
-    }
-    nearest.emplace_back(squared, static_cast<std::uint32_t>(i));
-    std::push_heap(nearest.begin(), nearest.end());
-    if (nearest.size() == points) farthest = nearest.front().first;
-  }
-  std::sort_heap(nearest.begin(), nearest.end());
-  Neighbourhood result;
-  for (const auto& [squared, i] : nearest) result.push_back(survey.sample[i]);
-  return result;
-}
-
 std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& survey, const SampleTree& tree,
                                           std::size_t probes, std::size_t points, const Context& context) {
   constexpr double kAmple = 1.5, kFarthest = 8.0, kFinest = 1e-6;  // the last: of the extent

@@ -32,9 +32,6 @@ class SampleTree {
   nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Sample>, Sample, 3> tree_;
 };
 
-/// At most `points` points of the sample around one of them, found by looking at all: for some hundred probes that costs less than a tree.
-Neighbourhood nearest_in_sample(const Survey& survey, std::size_t probe, std::size_t points);
-
 /// Neighbourhoods, of at most `points` points each, of the first points of a survey's sample among all points
 /// of the source. One that is eight times as far from others as half of them are has none.
 std::vector<Neighbourhood> neighbourhoods(PointSource& source, const Survey& survey, const SampleTree& tree,

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "planes/neighbourhoods.h"
+#include "planes/sample_slabs.h"
 
 namespace unseen::planes {
 namespace {
@@ -73,9 +73,10 @@ std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::s
 }
 
 std::vector<Probe> probe_few(const Survey& survey, const Space& space, std::size_t count, const Context& context) {
+  const SampleSlabs slabs(survey);
   std::vector<Probe> probes(std::min(count, survey.sample.size()));
   parallel_blocks(context, probes.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) probes[i] = probe(nearest_in_sample(survey, i, kFewestNeighbours), i, space);
+    for (std::size_t i = begin; i < end; ++i) probes[i] = probe(slabs.around(i, kFewestNeighbours), i, space);
   });
   return probes;
 }

@@ -58,14 +58,15 @@ void find_duplicates(PointSource& source, Survey& survey) {
 }
 
 /// The box that holds all but a hundredth of the sample at either end of each axis, grown on all sides by ten
-/// times its longest edge.
+/// times its longest edge. The sample is in the order of its hashes, so that its first points are as even as the whole.
 Box neighbourhood(const LargeVector<Vec3>& sample) {
   constexpr double kAtEachEnd = 0.01, kFar = 10.0;
-  LargeVector<double> along(sample.size());
-  const auto rank = static_cast<std::ptrdiff_t>(kAtEachEnd * static_cast<double>(sample.size()));
+  constexpr std::size_t kTelling = 20'000;
+  std::vector<double> along(std::min(sample.size(), kTelling));
+  const auto rank = static_cast<std::ptrdiff_t>(kAtEachEnd * static_cast<double>(along.size()));
   Box box;
   for (int a = 0; a < 3; ++a) {
-    std::transform(sample.begin(), sample.end(), along.begin(), [&](const Vec3& p) { return p[a]; });
+    std::transform(sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(along.size()), along.begin(), [&](const Vec3& p) { return p[a]; });
     std::nth_element(along.begin(), along.begin() + rank, along.end());
     box.low[a] = along[rank];
     std::nth_element(along.begin(), along.end() - 1 - rank, along.end());
@@ -132,10 +133,18 @@ class EvenSample {
   }
   bool twins() const { return twins_; }
   bool has_all() const { return zeros_ == 0; }
-  LargeVector<Sampled> by_hash() && {
-    std::sort(places_.begin(), places_.end(),
-              [](const Sampled& a, const Sampled& b) { return a.hash < b.hash; });
-    return std::move(places_);
+  LargeVector<Sampled> by_hash() const {
+    const auto less = [](const Sampled& a, const Sampled& b) { return a.hash < b.hash; };
+    // Hashes are spread evenly: buckets of their leading digits hold a few places each.
+    const int digits = std::bit_width(places_.size() / kOfBucket);
+    const auto bucket_of = [&](const Sampled& x) { return digits == 0 ? 0 : (x.hash << zeros_) >> (64 - digits); };
+    std::vector<std::uint32_t> first((std::size_t{1} << digits) + 1, 0);
+    for (const Sampled& x : places_) ++first[bucket_of(x)];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    LargeVector<Sampled> sorted(places_.size());
+    for (const Sampled& x : places_) sorted[--first[bucket_of(x)]] = x;
+    for (std::size_t b = 0; b + 1 < first.size(); ++b) std::sort(sorted.begin() + first[b], sorted.begin() + first[b + 1], less);
+    return sorted;
   }
 
  private:
@@ -158,6 +167,7 @@ class EvenSample {
       slot_of(places_[i].hash) = static_cast<std::uint32_t>(i + 1);
   }
 
+  static constexpr std::size_t kOfBucket = 8;
   int zeros_ = 0;
   bool twins_ = false;
   LargeVector<Sampled> places_;
@@ -193,7 +203,7 @@ Survey survey(PointSource& source, Context& context) {
     s.points += block.size();
   });
   const bool twins = sample.twins(), no_duplicates = sample.has_all() && !twins;
-  const LargeVector<Sampled> places = std::move(sample).by_hash();
+  const LargeVector<Sampled> places = sample.by_hash();
   s.sample.reserve(places.size());
   if (normals) s.sample_normals.reserve(places.size());
   for (const Sampled& x : places) {
