@@ -20,7 +20,10 @@ FrameSearch::FrameSearch(const SelectionProblem& problem, const Context& context
       context_(context),
       offers_(offers_of(problem)),
       cost_((problem.lambda * problem.data).cwiseMin(kImpossible)),
-      near_(problem.patches()) {
+      near_(problem.patches()),
+      frames_of_(problem.patches()) {
+  for (int k = 0; k < p_.frames(); ++k)
+    for (const Offer& o : offers_[k]) frames_of_[o.patch].push_back(k);
   for (const auto& [a, b] : p_.neighbours) {
     near_[a].push_back(b);
     near_[b].push_back(a);
@@ -35,14 +38,17 @@ std::vector<int> FrameSearch::fixed() const {
 }
 
 std::vector<int> FrameSearch::open_frames(std::vector<int> open) const {
+  std::vector<double> known, saves;
   while (true) {
     context_.check();
     const Best now = best_of(open);
+    update_savings(known, now.cost, saves);
+    known = now.cost;
     const std::vector<double> opening = openings(open);
     const double pairs = pairs_of(open);
     double best = -1e-8;
     int add = -1, drop = -1;
-    const std::vector<Addition> additions = ranked_additions(open, now, opening);
+    const std::vector<Addition> additions = ranked_additions(open, saves, opening);
     if (!additions.empty() && additions.front().change < best) {
       best = additions.front().change;
       add = additions.front().frame;
@@ -124,7 +130,9 @@ FrameSearch::State FrameSearch::improve(State state) const {
 
 std::vector<int> FrameSearch::promising(const std::vector<int>& open, std::size_t count) const {
   std::vector<int> result;
-  for (const Addition& a : ranked_additions(open, best_of(open), openings(open)))
+  std::vector<double> saves;
+  update_savings({}, best_of(open).cost, saves);
+  for (const Addition& a : ranked_additions(open, saves, openings(open)))
     if (result.size() < count) result.push_back(a.frame);
   return result;
 }
@@ -195,23 +203,28 @@ std::vector<double> FrameSearch::openings(const std::vector<int>& open) const {
   return sum;
 }
 
-double FrameSearch::saved(int k, const std::vector<double>& now) const {
-  double sum = 0;
-  for (const Offer& o : offers_[k]) sum += std::max(0.0, now[o.patch] - o.cost);
-  return sum;
+void FrameSearch::update_savings(const std::vector<double>& known, const std::vector<double>& now, std::vector<double>& saves) const {
+  std::vector<char> stale(p_.frames(), known.empty());
+  saves.resize(p_.frames());
+  for (std::size_t j = 0; j < known.size(); ++j)
+    if (known[j] != now[j])
+      for (const int k : frames_of_[j]) stale[k] = 1;
+  for (int k = 0; k < p_.frames(); ++k) {
+    if (!stale[k]) continue;
+    double sum = 0;
+    for (const Offer& o : offers_[k]) sum += std::max(0.0, now[o.patch] - o.cost);
+    saves[k] = sum;
+  }
 }
 
-std::vector<FrameSearch::Addition> FrameSearch::ranked_additions(const std::vector<int>& open, const Best& now,
-                                                     const std::vector<double>& opening) const {
+std::vector<FrameSearch::Addition> FrameSearch::ranked_additions(const std::vector<int>& open, const std::vector<double>& saves,
+                                                                 const std::vector<double>& opening) const {
   std::vector<char> is_open(p_.frames(), 0);
   for (const int k : open) is_open[k] = 1;
   std::vector<Addition> ranked;
   const double pairs = pairs_of(open), before = p_.of_pairs(pairs);
   for (int k = 0; k < p_.frames(); ++k)
-    if (!is_open[k]) {
-      const double saves = saved(k, now.cost);
-      ranked.push_back({p_.of_pairs(pairs + opening[k]) - before - saves, k, saves});
-    }
+    if (!is_open[k]) ranked.push_back({p_.of_pairs(pairs + opening[k]) - before - saves[k], k, saves[k]});
   const auto middle = ranked.begin() + static_cast<std::ptrdiff_t>(std::min(kSwaps, ranked.size()));
   std::partial_sort(ranked.begin(), middle, ranked.end());
   ranked.erase(middle, ranked.end());

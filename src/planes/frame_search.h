@@ -55,8 +55,9 @@ class FrameSearch {
   /// Irregularities of each frame with the open ones, summed.
   std::vector<double> openings(const std::vector<int>& open) const;
 
-  /// Data cost that a frame takes off what patches pay now.
-  double saved(int k, const std::vector<double>& now) const;
+  /// Data cost that each frame takes off what patches pay now. `saves` holds what it was for the costs known before, if any: frames that
+  /// offer nothing to a patch whose cost has changed keep it.
+  void update_savings(const std::vector<double>& known, const std::vector<double>& now, std::vector<double>& saves) const;
 
   /// A closed frame, by what opening it changes in data and irregularity, and how much data cost it saves of that.
   struct Addition {
@@ -66,7 +67,7 @@ class FrameSearch {
     auto operator<=>(const Addition&) const = default;
   };
   /// The most promising additions, best first.
-  std::vector<Addition> ranked_additions(const std::vector<int>& open, const Best& now, const std::vector<double>& opening) const;
+  std::vector<Addition> ranked_additions(const std::vector<int>& open, const std::vector<double>& saves, const std::vector<double>& opening) const;
 
   double differs(int a, int ka, int b, int kb) const { return p_.orientation(a, ka) == p_.orientation(b, kb) ? 0.0 : p_.smoothness(); }
   double total(const std::vector<int>& open, const Labels& labels) const;
@@ -85,6 +86,7 @@ class FrameSearch {
   const Offers offers_;
   const Eigen::MatrixXd cost_;          ///< λ·D, patches × frames, with a large number for infinite
   std::vector<std::vector<int>> near_;
+  std::vector<std::vector<int>> frames_of_;  ///< that offer a patch something
 };
 
 }  // namespace unseen::planes
