@@ -20,7 +20,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFirstSigma = 100.0, kSigmaGrowth = 10.0, kLargestSigma = 1e5;
-constexpr int kBalanceRounds = 60, kSteps = 200, kTries = 200;
+constexpr int kSteps = 200, kTries = 200;
 constexpr double kBalanced = 1e-11;  ///< residual
 constexpr double kMinimal = 1e-12;   ///< gradient of ψ, at least; per σ, what rounding leaves
 constexpr double kRounding = 1e-15;
@@ -83,7 +83,7 @@ class Solver {
     Vector exact = residual_of(force_);
     Vector& r = motion_ = exact;
     double sigma = kFirstSigma;
-    for (int round = 0; round < kBalanceRounds; ++round) {
+    for (int round = 0; round < effort.rounds; ++round) {
       minimise(r, sigma);
       double size = 0;
       for (std::size_t c = 0; c < contacts_.size(); ++c) {

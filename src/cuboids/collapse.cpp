@@ -15,12 +15,16 @@ double speed(const Twist& t, const Vec3& center, double size) {
   return t.at(center).norm() + size * t.angular.norm();
 }
 
-/// True if a force in the friction cone about `normal` can do negative work.
-bool resists(const Twist& a, const Twist& b, const Vec3& point, const Vec3& normal, double friction) {
+/// True if a force in the friction cone about `normal` can do negative work; `speeds` of the two tell what is rounding.
+bool resists(const Twist& a, const Twist& b, const Vec3& point, const Vec3& normal, double friction, double speeds) {
   const Vec3 velocity = b.at(point) - a.at(point);
   const double along = velocity.dot(normal);
   const double across = (velocity - along * normal).norm();
-  return along - friction * across < -kResists * (a.at(point).norm() + b.at(point).norm());
+  return along - friction * across < -kResists * speeds;
+}
+
+bool resists(const Twist& a, const Twist& b, const Vec3& point, const Vec3& normal, double friction) {
+  return resists(a, b, point, normal, friction, a.at(point).norm() + b.at(point).norm());
 }
 
 bool same_motion(const Twist& a, const Twist& b) {
@@ -31,6 +35,11 @@ bool same_motion(const Twist& a, const Twist& b) {
 bool any_resists(const Collapse& c, const Problem& problem, const Arrangement& arrangement,
                  const std::vector<Touch>& touches, const std::vector<char>& held) {
   const auto motion = [&](int body) { return problem.is_support(body) || held[body] ? Twist{} : c.motion[body]; };
+  const auto speed_of = [&](int body) {  // not of the point that touches: about that the body may turn
+    if (motion(body).is_zero()) return 0.0;
+    const OrientedBox& box = arrangement.boxes[body - problem.supports_count()];
+    return speed(c.motion[body], box.center, box.half_size.norm());
+  };
   for (const auto& [a, b] : arrangement.fixed)
     if (!same_motion(motion(a), motion(b))) return true;
   for (const Touch& touch : touches) {
@@ -38,7 +47,7 @@ bool any_resists(const Collapse& c, const Problem& problem, const Arrangement& a
     if (a.is_zero() && b.is_zero()) continue;
     const double friction = measured_friction(touch.interface.normal, problem.friction);
     for (const Vec3& point : touch.interface.points)
-      if (resists(a, b, point, touch.interface.normal, friction)) return true;
+      if (resists(a, b, point, touch.interface.normal, friction, speed_of(touch.a) + speed_of(touch.b))) return true;
   }
   return false;
 }
@@ -91,9 +100,7 @@ double proven_residual(const Collapse& c, const Problem& problem, const Arrangem
   return most > 0.0 ? std::max(0.0, power / most) : 0.0;
 }
 
-std::vector<Collapse> collapses_of(const Balance& balance, const Vec3& gravity, const Structure& structure, const Problem& problem,
-                                   const Arrangement& arrangement, const std::vector<Touch>& touches,
-                                   const std::vector<char>& held) {
+Collapse motion_left(const Balance& balance, const Vec3& gravity, const Structure& structure, const Problem& problem) {
   Collapse whole;
   whole.gravity = gravity;
   whole.motion.resize(problem.bodies());
@@ -107,12 +114,17 @@ std::vector<Collapse> collapses_of(const Balance& balance, const Vec3& gravity, 
     t.angular = balance.angular_velocity(g, body);
     t.linear = balance.velocity(g, body) - t.angular.cross(body.center);
   }
+  return whole;
+}
+
+std::vector<Collapse> collapses_of(const Collapse& whole, const Problem& problem, const Arrangement& arrangement,
+                                   const std::vector<Touch>& touches, const std::vector<char>& held) {
   const auto proves = [&](const Collapse& c) {
     return proven_residual(c, problem, arrangement, touches, held) >= problem.stable_residual;
   };
   std::vector<Collapse> out;
   for (const std::vector<int>& group : moving_groups(whole, arrangement, touches)) {
-    std::size_t before = out.size();
+    const std::size_t before = out.size();
     for (const int body : group) {
       const Collapse alone = restricted(whole, {body});
       if (group.size() > 1 && proves(alone)) out.push_back(alone);
@@ -207,7 +219,7 @@ bool move_may_help(const FaceMove& move, int other, const Problem& problem, cons
 }  // namespace
 
 std::vector<int> remedies(const Collapse& c, const Problem& problem, const Arrangement& arrangement,
-                          const Arrangement& largest, const std::vector<char>& held) {
+                          const Arrangement& largest, const std::vector<char>& held, const std::vector<char>& closed) {
   const auto motion = [&](int body) { return problem.is_support(body) || held[body] ? Twist{} : c.motion[body]; };
   const bool weight = weight_may_help(c, problem, arrangement, largest, held);
   const auto helps = [&](const Hypothesis& h) {
@@ -223,7 +235,7 @@ std::vector<int> remedies(const Collapse& c, const Problem& problem, const Arran
   };
   std::vector<int> out;
   for (std::size_t h = 0; h < problem.hypotheses.size(); ++h)
-    if (helps(problem.hypotheses[h])) out.push_back(static_cast<int>(h));
+    if (!closed[h] && helps(problem.hypotheses[h])) out.push_back(static_cast<int>(h));
   return out;
 }
 

@@ -26,15 +26,17 @@ struct Collapse {
 double proven_residual(const Collapse& collapse, const Problem& problem, const Arrangement& arrangement,
                        const std::vector<Touch>& touches, const std::vector<char>& held);
 
-/// Collapses of an unstable arrangement from the unbalanced rest of its best balance, as small as can be: single
-/// bodies and groups that move by themselves where these suffice. None if numbers are too close to call.
-std::vector<Collapse> collapses_of(const Balance& balance, const Vec3& gravity, const Structure& structure, const Problem& problem,
-                                   const Arrangement& arrangement, const std::vector<Touch>& touches,
-                                   const std::vector<char>& held);
+/// What the unbalanced rest of an arrangement's best balance would set in motion.
+Collapse motion_left(const Balance& balance, const Vec3& gravity, const Structure& structure, const Problem& problem);
+
+/// Collapses of an unstable arrangement from that motion, as small as can be: single bodies and groups that move by themselves
+/// where these suffice. None if numbers are too close to call.
+std::vector<Collapse> collapses_of(const Collapse& motion, const Problem& problem, const Arrangement& arrangement,
+                                   const std::vector<Touch>& touches, const std::vector<char>& held);
 
 /// Hypotheses of which at least one must hold in every arrangement, beyond those chosen, that the collapse does not rule
-/// out. `largest` has every face moved as far as any hypothesis asks.
+/// out, but for those that are closed (a mark each). `largest` has every face moved as far as any hypothesis asks.
 std::vector<int> remedies(const Collapse& collapse, const Problem& problem, const Arrangement& arrangement,
-                          const Arrangement& largest, const std::vector<char>& held);
+                          const Arrangement& largest, const std::vector<char>& held, const std::vector<char>& closed);
 
 }  // namespace unseen::cuboids

@@ -39,7 +39,7 @@ int most_blamed(const Search& s) {
 /// The cheapest open hypothesis that stops a collapse at once and gives an allowed arrangement; −1 if there is none.
 int best_remedy(Search& s, const Certificate& c, const Arrangement& now, const std::vector<int>& chosen,
                 const std::vector<char>& closed) {
-  for (const Option& option : options_of(s, cut_of(s, c, now, chosen), now, closed)) {
+  for (const Option& option : options_of(s, c, now, chosen, closed)) {
     const Arrangement next = arrange(s.problem, with(chosen, option.hypothesis));
     if (penetrates(s.problem, next) || !s.admissible(next)) continue;
     if (proven_residual(c.collapse, s.problem, next, touching_pairs(s.problem, next), s.held) < s.problem.stable_residual)
@@ -89,6 +89,7 @@ std::vector<int> solve_part(Search& s, const std::vector<int>& part, std::vector
   std::vector<char> closed(s.problem.hypotheses.size(), 0);
   for (std::size_t h = 0; h < closed.size(); ++h)
     closed[h] = !s.inside[s.problem.hypotheses[h].a] && !s.inside[s.problem.hypotheses[h].b];
+  s.outside = closed;
   const auto start = [&](const std::vector<char>& firm) {
     for (int i = s.problem.supports_count(); i < s.problem.bodies(); ++i) s.held[i] = !s.inside[i] || firm[i];
     s.known.clear();
@@ -161,7 +162,7 @@ bool cheaper(const Cost& a, const Cost& b) {
 Choice search_contacts(const Problem& problem, const Admissible& admissible, const SearchLimits& limits, Context& context) {
   const auto time = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(limits.seconds));
   Search s{problem, admissible, context, limits, std::chrono::steady_clock::now() + time, arrange(problem, {}), largest_arrangement(problem),
-           {}, {}, std::vector<char>(problem.bodies(), 0), {}, 0, 0, {}, {}, false};
+           {}, {}, {}, std::vector<char>(problem.bodies(), 0), {}, 0, 0, {}, {}, false};
   s.initial_touches = touching_pairs(problem, s.initial);
   Parts parts;
   for (int i = 0; i < problem.bodies(); ++i) parts.of.push_back(i);

@@ -7,6 +7,9 @@
 
 namespace unseen::cuboids {
 
+static constexpr double kClearly = 0.95;  // of the residual of what stands: it need not be brought any lower
+static constexpr int kRounds = 20;
+
 /// A fixed contact that leads out counts half: so the costs of parts are lower bounds of their shares in the whole.
 static double cost_of_fixing(const Search& s, int a, int b) {
   const auto outside = [&](int body) { return !s.problem.is_support(body) && !s.inside[body]; };
@@ -44,7 +47,7 @@ std::vector<int> with(std::vector<int> chosen, int h) {
 static Certificate certificate_of(const Search& s, Collapse collapse) {
   Certificate c{std::move(collapse), false, {}};
   c.of_initial = proven_residual(c.collapse, s.problem, s.initial, s.initial_touches, s.held) >= s.problem.stable_residual;
-  if (c.of_initial) c.cut = remedies(c.collapse, s.problem, s.initial, s.largest, s.held);
+  if (c.of_initial) c.cut = remedies(c.collapse, s.problem, s.initial, s.largest, s.held, s.outside);
   return c;
 }
 
@@ -57,7 +60,7 @@ static std::vector<int> most_moving(const Search& s, const Structure& structure,
   return out;
 }
 
-Verdict judge(Search& s, const Arrangement& now) {
+Verdict judge(Search& s, const Arrangement& now, const Effort& effort) {
   const std::vector<Touch> touches = touching_pairs(s.problem, now);
   Verdict verdict;
   for (std::size_t c = 0; c < s.known.size(); ++c)
@@ -67,12 +70,13 @@ Verdict judge(Search& s, const Arrangement& now) {
   const Structure structure = structure_of(s.problem, now, touches, s.held);
   std::vector<Vec3> forces;
   for (const Vec3& gravity : load_cases(s.problem.push)) {
-    Balance b = balance(structure.bodies, structure.contacts, gravity, forces, {}, s.context);
+    Balance b = balance(structure.bodies, structure.contacts, gravity, forces, effort, s.context);
     if (forces.empty()) verdict.residual = b.residual;
     verdict.stands = b.residual < s.problem.stable_residual;
     if (!verdict.stands) {
       verdict.moving = most_moving(s, structure, b);
-      for (Collapse& collapse : collapses_of(b, gravity, structure, s.problem, now, touches, s.held)) {
+      verdict.motion = motion_left(b, gravity, structure, s.problem);
+      for (Collapse& collapse : collapses_of(verdict.motion, s.problem, now, touches, s.held)) {
         verdict.certificates.push_back(static_cast<int>(s.known.size()));
         s.known.push_back(certificate_of(s, std::move(collapse)));
       }
@@ -83,8 +87,8 @@ Verdict judge(Search& s, const Arrangement& now) {
   return verdict;
 }
 
-std::vector<Option> options_of(const Search& s, const std::vector<int>& cut, const Arrangement& now,
-                               const std::vector<char>& closed) {
+static std::vector<Option> options_of(const Search& s, const std::vector<int>& cut, const Arrangement& now,
+                                      const std::vector<char>& closed) {
   std::vector<Option> out;
   const Cost base = cost_of(s, now);
   for (const int h : cut) {
@@ -98,10 +102,12 @@ std::vector<Option> options_of(const Search& s, const std::vector<int>& cut, con
   return out;
 }
 
-std::vector<int> cut_of(const Search& s, const Certificate& c, const Arrangement& now, const std::vector<int>& chosen) {
+std::vector<Option> options_of(const Search& s, const Certificate& c, const Arrangement& now, const std::vector<int>& chosen,
+                               const std::vector<char>& closed) {
   const bool fresh = std::none_of(c.cut.begin(), c.cut.end(),
                                   [&](int h) { return std::binary_search(chosen.begin(), chosen.end(), h); });
-  return c.of_initial && fresh ? c.cut : remedies(c.collapse, s.problem, now, s.largest, s.held);
+  if (c.of_initial && fresh) return options_of(s, c.cut, now, closed);
+  return options_of(s, remedies(c.collapse, s.problem, now, s.largest, s.held, closed), now, closed);
 }
 
 /// What an arrangement costs at least once all collapses are stopped: cuts that share no hypothesis and move no body in
@@ -157,22 +163,22 @@ void visit(Search& s, const std::vector<int>& chosen, std::vector<char> closed) 
     ++s.best.pruned;
     return;
   }
-  const Verdict verdict = judge(s, now);
+  Verdict verdict = judge(s, now, {kClearly * s.problem.stable_residual, 1e-8, kRounds});
+  if (verdict.stands && s.found && cheaper(s.best.cost, cost_of(s, now))) return;
+  if (verdict.stands) verdict = judge(s, now);  // what is kept is at rest in the least-squares sense
   if (verdict.stands) return keep(s, now, chosen, verdict.residual);
 
   std::vector<std::vector<Option>> branches;
   for (const int c : verdict.certificates) {
-    branches.push_back(options_of(s, cut_of(s, s.known[c], now, chosen), now, closed));
+    branches.push_back(options_of(s, s.known[c], now, chosen, closed));
     if (!branches.back().empty()) continue;
     blame(s, verdict);
     ++s.best.pruned;
     return;
   }
-  if (branches.empty()) {  // too close to call by any collapse: whatever is left may help
-    std::vector<int> all(s.problem.hypotheses.size());
-    for (std::size_t h = 0; h < all.size(); ++h) all[h] = static_cast<int>(h);
-    branches.push_back(options_of(s, all, now, closed));
-    if (branches.back().empty()) return;
+  if (branches.empty()) {  // too close to call by any collapse: what can resist the motion that is left may help
+    branches.push_back(options_of(s, remedies(verdict.motion, s.problem, now, s.largest, s.held, closed), now, closed));
+    if (branches.back().empty()) return blame(s, verdict);
   }
   if (s.found && !cheaper(lower_bound(s, now, branches), s.best.cost)) {
     ++s.best.pruned;

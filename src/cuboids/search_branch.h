@@ -33,6 +33,7 @@ struct Search {
   Arrangement initial, largest;
   std::vector<Touch> initial_touches;
   std::vector<char> inside;  ///< a body: part of what is solved now
+  std::vector<char> outside;  ///< a hypothesis: about no body inside
   std::vector<char> held;    ///< a body: firm, as it is outside or as nothing can hold it
   std::vector<Certificate> known;
   int visits = 0, most_visits = 0;  ///< arrangements looked at for this part
@@ -46,6 +47,7 @@ struct Verdict {
   bool stands = false;
   double residual = 0;
   std::vector<int> certificates;  ///< indices into Search::known
+  Collapse motion;                ///< what is out of balance, where nothing was known
   std::vector<int> moving;        ///< bodies that are out of balance most
 };
 
@@ -54,11 +56,9 @@ std::vector<int> with(std::vector<int> chosen, int hypothesis);
 Cost cost_of(const Search& s, const Arrangement& now);
 
 /// What is known against an arrangement, or new: certificates are added to what is known.
-Verdict judge(Search& s, const Arrangement& now);
-/// Hypotheses that could stop a collapse of an arrangement.
-std::vector<int> cut_of(const Search& s, const Certificate& c, const Arrangement& now, const std::vector<int>& chosen);
-/// The open hypotheses of a cut, the cheapest first.
-std::vector<Option> options_of(const Search& s, const std::vector<int>& cut, const Arrangement& now,
+Verdict judge(Search& s, const Arrangement& now, const Effort& effort = {});
+/// The open hypotheses that could stop a collapse of an arrangement, the cheapest first.
+std::vector<Option> options_of(const Search& s, const Certificate& c, const Arrangement& now, const std::vector<int>& chosen,
                                const std::vector<char>& closed);
 /// Keeps an arrangement that stands if none better is known.
 void keep(Search& s, const Arrangement& now, const std::vector<int>& chosen, double residual);

@@ -50,6 +50,7 @@ struct Balance {
 struct Effort {
   double enough = 0;      ///< a residual with which it need go no further, though it is not the least
   double certain = 1e-8;  ///< share of the sum of squares by which it may miss the least one
+  int rounds = 60;        ///< after which it is content with what it has
 };
 
 /// Minimises ‖Df + w‖ over forces in true friction cones (Eq. 4.2, 4.3), with forces in units of each body's weight
