@@ -87,13 +87,13 @@ void warn_of_free_space(const DepthView& view, const std::vector<double>& tolera
 }
 
 /// Contacts count within tolerance, but an engine that is given the boxes moves some until they touch.
-void warn_of_falls(const std::vector<char>& falls, const Completion& result, Context& context) {
+void warn_of_falls(const std::vector<char>& falls, double push, const Completion& result, Context& context) {
   std::vector<std::string> named;
   for (std::size_t i = 0; i < result.cuboids.size(); ++i)
     if (falls[result.supports.size() + i]) named.push_back(std::to_string(result.cuboids[i].id));
   if (named.empty()) return;
-  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a nudge of {} g: cuboid {}",
-                           kNudge, first_of(named)));
+  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a push of {} g: cuboid {}",
+                           push, first_of(named)));
 }
 
 }  // namespace
@@ -163,7 +163,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   settle(problem, choice.held, arrangement, context);
   const std::vector<char> falls = hold_together(problem, choice.held, arrangement, context);
   describe(problem, choice.held, arrangement, result);
-  warn_of_falls(falls, result, context);
+  warn_of_falls(falls, problem.push, result, context);
   warn_of_free_space(view, problem.tolerance, result.cuboids, context);
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {

@@ -70,7 +70,6 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
 /// no longer than what hangs. Such bodies are no longer `held`.
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context);
 
-inline constexpr double kNudge = 0.03;   ///< g: sticks on end bear less, and do not stay for long
 inline constexpr double kAtRest = 1e-3;  ///< residual: what is not balanced falls in the end, if slowly
 /// The same problem without tolerance: only what touches in the boxes as they will be written touches, but for a rest that counts for nothing.
 Problem as_written(const Problem& problem);

@@ -13,7 +13,7 @@ constexpr double kThin = 4.0;       // tolerances
 constexpr double kWorth = 0.5;      // of the unrest of those that it joins: what a fixed contact must end
 constexpr int kMostWork = 5000;     // fixed contacts that may be tried, times bodies, or little more
 
-/// What stays at rest under a nudge from any side.
+/// What stays at rest under a push from any side.
 struct Rest {
   std::vector<int> group;
   std::vector<char> is_firm;   ///< a body
@@ -33,7 +33,7 @@ Rest rest_of(const Problem& problem, const Arrangement& arrangement, const std::
   Rest out{s.group, std::vector<char>(problem.bodies(), 0), std::vector<double>(problem.bodies(), 0.0), 0.0};
   for (int i = 0; i < problem.bodies(); ++i) out.is_firm[i] = s.bodies[s.group[i]].is_static;
   std::vector<Vec3> forces;
-  for (const Vec3& load : load_cases(kNudge)) {
+  for (const Vec3& load : load_cases(problem.push)) {
     const Balance b = balance(s.bodies, s.contacts, load, forces);
     forces = b.forces;
     for (int i = problem.supports_count(); i < problem.bodies(); ++i) {
