@@ -16,7 +16,8 @@ constexpr int kFewestFrames = 6;      // that something moves at the inner side,
 constexpr double kNever = 0.05;       // the share of them in which it does at the outer
 constexpr double kEdge = 18.0;        // grey levels between the background's two sides
 constexpr int kBreak = 2;             // points of the outline, in a row, that may be off the edge
-constexpr double kLeastChord = 0.35;  // of the bounding circle's diameter: less hides next to nothing
+constexpr double kLongChord = 0.35;   // of the bounding circle's diameter: what so many frames end at covers,
+constexpr double kShortChord = 0.12;  // and there what is shorter too; less hides next to nothing
 constexpr double kStraight = 1.0;     // px, standard deviation about a line
 constexpr double kSmallestCircle = 25.0;    // px, of the bounding circle: too small to tell
 
@@ -90,7 +91,7 @@ class Edges {
       if (off > kBreak) run.clear();
       if (off > 0) continue;
       run.push_back(p.inner);
-      if (run.size() <= longest.size() || static_cast<double>(run.size()) <= kLeastChord * region.circle || width_of(run) >= kStraight) continue;
+      if (run.size() <= longest.size() || static_cast<double>(run.size()) <= kShortChord * region.circle || width_of(run) >= kStraight) continue;
       longest.clear();
       for (const Vec2& q : run) longest.push_back(pixel_of(q));
     }
@@ -125,15 +126,18 @@ void mark_covered(const Background& background, cv::Point corner, int scale, Foo
       for (const Region& r : footage.regions[k])
         runs[k].push_back(r.shadow || r.circle < kSmallestCircle ? std::vector<cv::Point>() : edges.run_of(r));
   });
-  cv::Mat ends = cv::Mat::zeros(footage.height, footage.width, CV_16U), spread;  // in how many frames such a run passes
-  for (const auto& frame : runs)
-    for (const auto& run : frame)
-      for (const cv::Point& p : run) ++ends.at<unsigned short>(p);
+  const auto is_long = [&](std::size_t k, std::size_t i) { return static_cast<double>(runs[k][i].size()) > kLongChord * footage.regions[k][i].circle; };
+  cv::Mat ends = cv::Mat::zeros(footage.height, footage.width, CV_16U), spread;  // in how many frames a long run passes
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (std::size_t i = 0; i < runs[k].size(); ++i)
+      if (is_long(k, i))
+        for (const cv::Point& p : runs[k][i]) ++ends.at<unsigned short>(p);
   cv::dilate(ends, spread, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
   for (std::size_t k = 0; k < runs.size(); ++k)
     for (std::size_t i = 0; i < runs[k].size(); ++i) {
       const auto often = std::count_if(runs[k][i].begin(), runs[k][i].end(), [&](const cv::Point& p) { return spread.at<unsigned short>(p) >= kFewestFrames; });
-      footage.regions[k][i].covered = often > 0 && 2 * static_cast<std::size_t>(often) >= runs[k][i].size();
+      footage.regions[k][i].clipped = often > 0 && 2 * static_cast<std::size_t>(often) >= runs[k][i].size();
+      footage.regions[k][i].covered = footage.regions[k][i].clipped && is_long(k, i);
     }
 }
 

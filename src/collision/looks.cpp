@@ -73,7 +73,7 @@ std::vector<std::size_t> usable_points(const Footage& footage, const Tracks& tra
   std::vector<std::size_t> usable;
   for (std::size_t i = span.begin; i < span.end; ++i) {
     const Region* region = region_of(tracks.points[i], footage);
-    if (region != nullptr && !region->at_border && !region->covered && !region->mask.empty() && !shared(tracks, i)) usable.push_back(i);
+    if (region != nullptr && !region->at_border && !region->clipped && !region->mask.empty() && !shared(tracks, i)) usable.push_back(i);
   }
   return usable;
 }

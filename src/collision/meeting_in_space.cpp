@@ -3,6 +3,7 @@
 #include "collision/meeting_in_space.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "collision/linear_flights.h"
 #include "collision/shot_problem.h"
@@ -27,6 +28,7 @@ void add_flight(const Arc& arc, int body, double fps, Tracks& tracks) {
 std::optional<SpaceMeeting> meeting_at(const Problem& problem, double u, double fps) {
   SpaceMeeting meeting;
   meeting.u = u;
+  meeting.least_change = std::numeric_limits<double>::infinity();
   Vec2 change[2];
   for (int body = 0; body < 2; ++body) {
     const auto flight = linear_flight(problem, body, u / fps);
@@ -34,6 +36,8 @@ std::optional<SpaceMeeting> meeting_at(const Problem& problem, double u, double 
     meeting.misfit += misfit(problem, *flight, body, u / fps);
     meeting.pixels[static_cast<std::size_t>(body)] = problem.camera.project(flight->p);
     change[body] = (flight->v_after - flight->v_before).head<2>();
+    const double faster = std::max(flight->v_before.head<2>().norm(), flight->v_after.head<2>().norm());
+    meeting.least_change = std::min(meeting.least_change, change[body].norm() / faster);
   }
   meeting.opposed = change[0].normalized().dot(change[1].normalized());
   return meeting;

@@ -14,6 +14,7 @@ struct SpaceMeeting {
   double u = 0;        ///< frame times
   double misfit = 0;   ///< ½ χ² a sighting; 1 where nothing but noise is left
   std::array<Vec2, 2> pixels;  ///< of the bodies' centres then
+  double least_change = 0;  ///< of the two bodies' changes of velocity across the view, each as a share of the faster one, before or after
   double opposed = 0;  ///< cosine between the two changes of velocity, across the view: along it they are hardly seen
 };
 

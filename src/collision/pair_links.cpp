@@ -12,7 +12,8 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kLongestGap = 0.4;     // s between two flights of one body, behind something that hides the impact, and
+constexpr double kLongestGap = 0.4;     // s between two flights of one body, behind something that hides the impact,
+constexpr double kFarthestGap = 0.5;    // or, if only flights in space tell, so many, and
 constexpr double kLongestFrames = 6.5;  // frame times at least
 constexpr double kLongestOverlap = 4.0;  // frame times
 constexpr double kLater = 2.0;          // frame times by which the flight after must begin and end later
@@ -20,6 +21,7 @@ constexpr double kAlikeBent = 0.1;      // of the curvature, by which perspectiv
 constexpr double kSameTime = 2.5;       // frame times between the two bodies' own joints, beside what their spread explains
 constexpr double kMostSlack = 6.0;      // frame times that this may be at most
 constexpr double kMisfit = 2.0;         // ½ χ² a sighting about flights in space
+constexpr double kPush = 0.12;          // of the faster velocity, by which both bodies' change if only flights in space tell of an impact
 constexpr double kWorth = 40.0;         // of it in the score
 constexpr double kTouch = 0.85;         // of the sum of the diameters that the centres may be apart at the impact
 constexpr double kUnlike = 15.9;        // σ² between the looks before and after: bodies turn, and show other sides
@@ -37,9 +39,9 @@ Joint joint_of(const Link& link, double u, double noise) { return joint_at(u, li
 
 Joint own_joint(const Link& link, double noise) { return join(link.curve_before, link.end, link.curve_after, link.begin, noise, link.diameter); }
 
-/// Pairs of arcs that can be one body's flights before and after an impact.
-std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double fps) {
-  const double gap = std::max(kLongestFrames, kLongestGap * fps);
+/// Pairs of arcs that can be one body's flights before and after an impact, `longest` frame times apart at most.
+std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest) {
+  const double gap = std::max(kLongestFrames, longest);
   std::vector<Candidate> looks;
   for (const Arc& arc : arcs) looks.push_back(looks_of(arc));
   std::vector<Link> links;
@@ -72,8 +74,11 @@ std::pair<double, double> window_of(const Link& a, const Link& b) {
   return {std::max(std::min(a.end, a.begin), std::min(b.end, b.begin)) - kBeyond, std::min(std::max(a.end, a.begin), std::max(b.end, b.begin)) + kBeyond};
 }
 
+/// What is to tell of an impact: parabolas of the picture, or flights in space alone, as after a long time behind something.
+enum class Evidence { picture, space };
+
 /// Gives the collision the time that flights in space have; false if they do not meet.
-bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vector<Arc>& arcs, double noise, double fps, Collision& c) {
+bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vector<Arc>& arcs, double noise, double fps, Evidence evidence, Collision& c) {
   std::array<const Arc*, 4> flights{};
   for (std::size_t i = 0; i < 4; ++i) flights[i] = &arcs[c.arcs()[i]];
   if (swapped(shot, joined(flights[0]->points, flights[2]->points), joined(flights[1]->points, flights[3]->points))) {
@@ -82,7 +87,7 @@ bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vect
   }
   const auto [low, high] = window_of(c.a, c.b);
   const auto meeting = meet_in_space(shot, camera, flights, low, high, noise, fps);
-  if (!meeting || meeting->misfit > kMisfit || meeting->opposed > kOpposed) return false;
+  if (!meeting || meeting->misfit > kMisfit || meeting->opposed > kOpposed || (evidence == Evidence::space && meeting->least_change < kPush)) return false;
   if (!near(c.a, c.b, (meeting->pixels[0] - meeting->pixels[1]).norm(), noise)) return false;
   c.u = meeting->u;
   c.score -= kWorth * meeting->misfit;
@@ -93,11 +98,11 @@ bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vect
 double time_between(const Link& a, const Link& b, double noise) { return std::abs(own_joint(a, noise).u - own_joint(b, noise).u); }
 
 /// Whether both links close at one time, by pushes that momentum allows. Sets the time and the score.
-bool agree(const std::vector<Arc>& arcs, double noise, Collision& c) {
+bool agree(const std::vector<Arc>& arcs, double noise, Evidence evidence, Collision& c) {
   c.u = common_time(c.a, c.b, noise);
   if (std::isnan(c.u)) return false;
   const Joint ja = joint_of(c.a, c.u, noise), jb = joint_of(c.b, c.u, noise);
-  if (ja.apart > ja.tolerance || jb.apart > jb.tolerance || !ja.sudden || !jb.sudden) return false;
+  if (ja.apart > ja.tolerance || jb.apart > jb.tolerance || (evidence == Evidence::picture && !(ja.sudden && jb.sudden))) return false;
   const double opposed = ja.change.dot(jb.change) / (ja.change.norm() * jb.change.norm());
   if (opposed > kOpposed) return false;
   c.score = -20.0 * opposed - (ja.apart + jb.apart) / noise - 4.0 * time_between(c.a, c.b, noise) - c.a.unlike - c.b.unlike;
@@ -148,17 +153,21 @@ double common_time(const Link& a, const Link& b, double noise) {
 }
 
 std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camera, const std::vector<Arc>& arcs, double noise, double fps) {
-  const std::vector<Link> links = links_of(arcs, noise, fps);
   std::vector<Collision> found;
-  for (std::size_t i = 0; i < links.size(); ++i)
-    for (std::size_t j = i + 1; j < links.size(); ++j) {
-      const Link &a = links[i], &b = links[j];
-      if (a.before == b.before || a.after == b.after || a.before == b.after || a.after == b.before) continue;
-      Collision collision{a, b, 0.0, 0.0};
-      if (!agree(arcs, noise, collision)) continue;
-      const bool in_the_picture = meet_in_the_picture(collision, noise), in_space = is_unseen(a, b) && settle_in_space(shot, camera, arcs, noise, fps, collision);
-      if (in_the_picture || in_space) found.push_back(collision);
-    }
+  for (const Evidence evidence : {Evidence::picture, Evidence::space}) {
+    const std::vector<Link> links = links_of(arcs, noise, (evidence == Evidence::picture ? kLongestGap : kFarthestGap) * fps);
+    for (std::size_t i = 0; i < links.size(); ++i)
+      for (std::size_t j = i + 1; j < links.size(); ++j) {
+        const Link &a = links[i], &b = links[j];
+        if (a.before == b.before || a.after == b.after || a.before == b.after || a.after == b.before) continue;
+        Collision collision{a, b, 0.0, 0.0};
+        if (!agree(arcs, noise, evidence, collision)) continue;
+        const bool in_the_picture = evidence == Evidence::picture && meet_in_the_picture(collision, noise);
+        const bool in_space = is_unseen(a, b) && settle_in_space(shot, camera, arcs, noise, fps, evidence, collision);
+        if (in_the_picture || in_space) found.push_back(collision);
+      }
+    if (!found.empty()) break;
+  }
   std::stable_sort(found.begin(), found.end(), [](const Collision& x, const Collision& y) { return x.score > y.score; });
   return found;
 }

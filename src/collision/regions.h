@@ -27,6 +27,7 @@ struct Region {
   Vec3 color = Vec3::Zero();  ///< mean sRGB, 0…255
   bool at_border = false;     ///< cut by the picture's (or the roi's) edge
   bool covered = false;       ///< cut by something before the scene
+  bool clipped = false;       ///< the same, or cut by it in a corner only, which of a ball is next to nothing
   bool shadow = false;        ///< all of it could be the background with less light
   ShadowSign sign = ShadowSign::light;  ///< if it is
 };

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "collision/centering.h"
 #include "collision/rotation.h"
@@ -16,6 +17,8 @@ namespace {
 
 constexpr int kKept = 3;     // rotations of a flight that are looked at
 constexpr int kCombined = 8;  // combinations of them that are solved
+constexpr int kRounds = 2;            // of rotations and distances
+constexpr double kKnownDistance = 0.02;  // of itself: outlines allow for half of it
 constexpr double kHopeless = 150.0;  // χ² above the best one's
 
 /// Given orientations within the flights that meet in this impact, or little before and after what was seen of them.
@@ -138,6 +141,22 @@ double comparable_cost(const Solution& solution, const Problem& expected) {
          squares("orientation", 3.0 * static_cast<double>(expected.orientations.size()), solution.problem.orientation_sigma / expected.orientation_sigma);
 }
 
+/// The impact as centres and distances have it that outlines tell if the bodies are turned like this; nothing if it cannot be solved.
+std::optional<SolvedImpact> centered_impact(const SolvedImpact& impact, const Combination& combination, const Tracks& tracks, const std::array<FigureMaker, 2>& makers) {
+  Problem problem = impact.solution.problem;
+  problem.points = centered(problem.points, problem, makers, poses_of(impact, combination, tracks));
+  SolvedImpact next = impact;
+  next.solution.fit = settle(problem, impact.solution.fit.state);
+  return next.solution.fit.usable ? std::optional(next) : std::nullopt;
+}
+
+/// The largest share by which distances differ.
+double farthest_apart(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(b[i].z() / a[i].z() - 1.0));
+  return most;
+}
+
 /// Solves with the film's rotations; those that the impact cannot join cost more than those that it can.
 Solution solve_with(const std::vector<std::vector<Spin>>& spins, const SolvedImpact& impact, const Tracks& tracks,
                     const std::array<FigureMaker, 2>& makers, int starts, Context& context) {
@@ -181,8 +200,18 @@ void solve_turning(const Shot& shot, const Options& options, const ShotCamera& c
     solution = best_fit(problem, impact.solution.fit.state.time, options.starts, context);
   } else if (!footage.regions.empty()) {
     constexpr int kStarts = 4;  // the film's rotations leave no turns open
-    const std::vector<std::vector<Spin>> spins = find_spins(shot, camera, footage, tracks, centers_of(impact, tracks), kKept, context);
-    solution = solve_with(spins, impact, tracks, makers, kStarts, context);
+    const auto spins_at = [&](const SolvedImpact& at) { return find_spins(shot, camera, footage, tracks, centers_of(at, tracks), kKept, context); };
+    SolvedImpact now = impact;
+    std::vector<std::vector<Spin>> spins = spins_at(now);
+    for (int round = 0; round < kRounds; ++round) {  // at a wrong distance outlines have another size, and seem to be turned
+      const std::vector<Combination> best = combinations(spins, now.meeting);
+      if (best.front().spins.empty()) break;
+      const std::optional<SolvedImpact> next = centered_impact(now, best.front(), tracks, makers);
+      if (!next || farthest_apart(centers_of(now, tracks), centers_of(*next, tracks)) < kKnownDistance) break;
+      now = *next;
+      spins = spins_at(now);
+    }
+    solution = solve_with(spins, now, tracks, makers, kStarts, context);
   }
   if (solution.fit.usable && !footage.regions.empty()) center_again(seen, makers, solution);
   if (solution.fit.usable) impact.solution = std::move(solution);

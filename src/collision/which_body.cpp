@@ -114,7 +114,7 @@ std::vector<std::pair<double, Outline>> seen_along(const Footage& footage, const
     const TrackPoint& point = tracks.points[span.begin + (2 * i + 1) * count / (2 * wanted)];
     if (point.region < 0) continue;
     const Region& region = footage.regions[static_cast<std::size_t>(point.frame)][static_cast<std::size_t>(point.region)];
-    if (region.at_border || region.covered || region.mask.empty()) continue;
+    if (region.at_border || region.clipped || region.mask.empty()) continue;
     if (const auto outline = outline_of(mask_outline(region.mask, kSpur * std::sqrt(region.area)))) all.emplace_back(point.time, *outline);
   }
   return all;

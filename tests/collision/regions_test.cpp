@@ -260,6 +260,41 @@ TEST(Regions, WhatSomethingBeforeTheSceneCutsIsMarked) {
   EXPECT_GT(cut, 6);
 }
 
+TEST(Regions, WhatIsCutInACornerIsClipped) {
+  const Scratch scratch("corner");
+  const std::string path = scratch.file("corner.avi");
+  const cv::Rect post(150, 0, 60, kHeight);
+  constexpr double kHalf = 16.0;  // of the square's side, which stands on a corner
+  const auto place = [](int k) { return Vec2(40.0 + 2.5 * k, 120.0); };
+  Random random(4);
+  const cv::Mat background = wall();
+  write_video(path, 60, [&](int k) {
+    cv::Mat frame = background.clone();
+    const Vec2 at = place(k);
+    const double reach = std::sqrt(2.0) * kHalf;
+    std::vector<cv::Point> corners;
+    for (const Vec2& side : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)})
+      corners.emplace_back(static_cast<int>(std::lround(16 * (at.x() + reach * side.x()))), static_cast<int>(std::lround(16 * (at.y() + reach * side.y()))));
+    cv::fillConvexPoly(frame, corners, kRed, cv::LINE_AA, 4);
+    cv::rectangle(frame, post, cv::Scalar(40, 60, 50), cv::FILLED);
+    add_noise(frame, 2.0, random);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  int clipped = 0;
+  for (int k = 1; k < 59; ++k)
+    for (const Region& r : footage.regions[k]) {
+      if (r.shadow || r.area < 200.0) continue;
+      const double hidden = place(k).x() + std::sqrt(2.0) * kHalf - post.x;  // of the corner; the chord is twice as long
+      if (hidden < -3.0) EXPECT_FALSE(r.clipped) << k;
+      if (hidden < 4.0) EXPECT_FALSE(r.covered) << k;
+      if (hidden > 6.0 && hidden < 2.0 * kHalf) EXPECT_TRUE(r.clipped) << k;
+      clipped += r.clipped && !r.covered;
+    }
+  EXPECT_GT(clipped, 1);
+}
+
 TEST(Regions, RoiFramesAndRateOfTheShot) {
   const Scratch scratch("roi");
   const std::string path = scratch.file("roi.avi");
