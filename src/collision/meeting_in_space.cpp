@@ -36,7 +36,7 @@ std::optional<SpaceMeeting> meeting_at(const Problem& problem, double u, double 
     meeting.misfit += misfit(problem, *flight, body, u / fps);
     meeting.pixels[static_cast<std::size_t>(body)] = problem.camera.project(flight->p);
     change[body] = (flight->v_after - flight->v_before).head<2>();
-    const double faster = std::max(flight->v_before.head<2>().norm(), flight->v_after.head<2>().norm());
+    const double faster = std::max({flight->v_before.head<2>().norm(), flight->v_after.head<2>().norm(), 1e-9});
     meeting.least_change = std::min(meeting.least_change, change[body].norm() / faster);
   }
   meeting.opposed = change[0].normalized().dot(change[1].normalized());
