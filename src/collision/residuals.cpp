@@ -20,7 +20,7 @@ constexpr double kOrientationHuber = 2.0;  // in noise
 template <class Term>
 class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
  public:
-  TermCost(Term term, const Evaluation& evaluation) : term_(std::move(term)), evaluation_(evaluation) {}
+  TermCost(Term term, const EvaluatedState& evaluation) : term_(std::move(term)), evaluation_(evaluation) {}
 
   /// False where a step led to where nothing can be computed.
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
@@ -71,7 +71,7 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
   }
 
   Term term_;
-  const Evaluation& evaluation_;
+  const EvaluatedState& evaluation_;
 };
 
 /// Half of it is the fourth power of the residual.
@@ -86,7 +86,7 @@ class SquareLoss : public ceres::LossFunction {
 
 class Adder {
  public:
-  Adder(Evaluation& evaluation, ceres::Problem& ceres) : evaluation_(evaluation), ceres_(ceres) {}
+  Adder(EvaluatedState& evaluation, ceres::Problem& ceres) : evaluation_(evaluation), ceres_(ceres) {}
 
   template <class Term>
   void add(const std::string& name, Term term, ceres::LossFunction* loss = nullptr) {
@@ -95,7 +95,7 @@ class Adder {
   std::vector<NamedBlock> blocks;
 
  private:
-  Evaluation& evaluation_;
+  EvaluatedState& evaluation_;
   ceres::Problem& ceres_;
 };
 
@@ -106,7 +106,7 @@ double touch_sigma(const Problem& problem) {
 
 }  // namespace
 
-Evaluation::Evaluation(const Problem& problem, const State& reference) : problem(problem), reference(reference), turned(problem.orientations.size()) {
+EvaluatedState::EvaluatedState(const Problem& problem, const State& reference) : problem(problem), reference(reference), turned(problem.orientations.size()) {
   for (const int body : {0, 1})
     for (const bool after : {false, true}) {
       SeenTurning seen{body, after, {}};
@@ -118,7 +118,7 @@ Evaluation::Evaluation(const Problem& problem, const State& reference) : problem
     }
 }
 
-void Evaluation::PrepareForEvaluation(bool jacobians, bool new_point) {
+void EvaluatedState::PrepareForEvaluation(bool jacobians, bool new_point) {
   if (!new_point && (!jacobians || has_derivatives)) return;
   state = unpack<double>(problem, reference, unknowns.data());
   has_derivatives = jacobians;
@@ -135,7 +135,7 @@ void Evaluation::PrepareForEvaluation(bool jacobians, bool new_point) {
   wide = unpack<Wide>(problem, reference, u.data());
 }
 
-std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Evaluation& evaluation, ceres::Problem& ceres) {
+std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, EvaluatedState& evaluation, ceres::Problem& ceres) {
   const Problem& problem = evaluation.problem;
   const State& reference = evaluation.reference;
   const Base base{problem, reference};

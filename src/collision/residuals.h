@@ -31,8 +31,8 @@ struct SeenTurning {
 };
 
 /// The unknowns and the state at them, made once for all terms of an evaluation.
-struct Evaluation : ceres::EvaluationCallback {
-  Evaluation(const Problem& problem, const State& reference);
+struct EvaluatedState : ceres::EvaluationCallback {
+  EvaluatedState(const Problem& problem, const State& reference);
   void PrepareForEvaluation(bool jacobians, bool new_point) override;
 
   const Problem& problem;
@@ -49,6 +49,6 @@ struct Evaluation : ceres::EvaluationCallback {
 
 /// Adds all terms of the problem to a Ceres problem that has `evaluation` as its callback. `touch` is where the shapes meet at the
 /// impact, if they are known.
-std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Evaluation& evaluation, ceres::Problem& ceres);
+std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, EvaluatedState& evaluation, ceres::Problem& ceres);
 
 }  // namespace unseen::collision

@@ -94,7 +94,7 @@ struct Setup {
   }
   double* unknowns() { return evaluation.unknowns.data(); }
 
-  Evaluation evaluation;
+  EvaluatedState evaluation;
   ceres::Problem ceres;
   std::vector<NamedBlock> blocks;
 

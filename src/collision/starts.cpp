@@ -34,7 +34,7 @@ std::vector<State> best_of(std::vector<Ranked> all, int count) {
 }
 
 /// The contact point that both levers ask for, and how much they disagree, in body sizes.
-std::pair<Vec3, double> contact_of(const Problem& problem, const State& s, const Turning& a, const Turning& b) {
+std::pair<Vec3, double> contact_of(const Problem& problem, const State& s, const ImpactTurning& a, const ImpactTurning& b) {
   const Vec3 middle = problem.fixed ? s.p[0] : Vec3(0.5 * (s.p[0] + s.p[1])), n = s.impulse.normalized();
   const auto across = [&](const Vec3& v) { return Vec3(v - n * n.dot(v)); };
   const Vec3 from_a = across(s.p[0] + a.lever - middle), from_b = across(s.p[1] + b.lever - middle);
@@ -47,12 +47,12 @@ std::pair<Vec3, double> contact_of(const Problem& problem, const State& s, const
 
 /// Shapes unknown: where the levers say.
 std::vector<Ranked> lever_starts(const Problem& problem, const State& base) {
-  const std::vector<Turning> first = turnings(problem, 0, base.time, base.impulse);
-  const std::vector<Turning> second = problem.fixed ? std::vector<Turning>{Turning{}} : turnings(problem, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
+  const std::vector<ImpactTurning> first = turnings(problem, 0, base.time, base.impulse);
+  const std::vector<ImpactTurning> second = problem.fixed ? std::vector<ImpactTurning>{ImpactTurning{}} : turnings(problem, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
   constexpr double kApart = 0.15;  // of the body's size: how far two levers may disagree
   std::vector<Ranked> all;
-  for (const Turning& a : first)
-    for (const Turning& b : second) {
+  for (const ImpactTurning& a : first)
+    for (const ImpactTurning& b : second) {
       State s = base;
       s.q = {a.q, b.q};
       s.h = {a.h, b.h};

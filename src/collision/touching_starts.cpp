@@ -14,7 +14,7 @@ namespace unseen::collision {
 namespace {
 
 /// Momenta on both sides that agree with the impulse's lever.
-void share_change(const Turning& turning, const Vec3& change, Vec3& h, Vec3& h_after) {
+void share_change(const ImpactTurning& turning, const Vec3& change, Vec3& h, Vec3& h_after) {
   h = turning.h, h_after = turning.h + change;
   if (!turning.has_lever) return;
   h -= turning.spread * (turning.spread + turning.spread_after).inverse() * (change - (turning.h_after - turning.h));

@@ -22,13 +22,13 @@ Problem shaken(Problem problem, Random& random) {
 
 }  // namespace
 
-std::vector<Turning> turnings(const Problem& problem, int body, double time, const Vec3& impulse) {
+std::vector<ImpactTurning> turnings(const Problem& problem, int body, double time, const Vec3& impulse) {
   const std::vector<SpinGuess> before = spin_guesses(problem, body, false, time), after = spin_guesses(problem, body, true, time);
-  std::vector<Turning> all;
-  if (before.empty() && after.empty()) return {Turning{}};
+  std::vector<ImpactTurning> all;
+  if (before.empty() && after.empty()) return {ImpactTurning{}};
   if (before.empty() || after.empty()) {
     for (const SpinGuess& guess : before.empty() ? after : before) {
-      Turning t;
+      ImpactTurning t;
       t.q = guess.q, t.h = t.h_after = guess.h, t.cost = guess.cost;
       all.push_back(t);
     }
@@ -40,12 +40,12 @@ std::vector<Turning> turnings(const Problem& problem, int body, double time, con
     for (const SpinGuess& b : after) {
       const Vec3 change = b.h - a.h;
       const double meet = rotation_vector<double>(b.q * a.q.conjugate()).norm() / kMeet;
-      Turning t{between(a.q, b.q), a.h, b.h, impulse.cross(change) / square, true, a.cost + b.cost + 0.5 * meet * meet, a.spread, b.spread};
+      ImpactTurning t{between(a.q, b.q), a.h, b.h, impulse.cross(change) / square, true, a.cost + b.cost + 0.5 * meet * meet, a.spread, b.spread};
       const double along = change.dot(impulse) / std::sqrt(square) / (reach * std::sqrt(square)), beyond = std::max(0.0, t.lever.norm() / reach - 1.0);
       t.cost += 0.5 * (along * along + beyond * beyond) * 100.0;
       all.push_back(t);
     }
-  std::stable_sort(all.begin(), all.end(), [](const Turning& a, const Turning& b) { return a.cost < b.cost; });
+  std::stable_sort(all.begin(), all.end(), [](const ImpactTurning& a, const ImpactTurning& b) { return a.cost < b.cost; });
   return all;
 }
 
@@ -55,7 +55,7 @@ std::vector<TurningPair> turning_pairs(const Problem& problem, const State& base
   constexpr double kWorthShaking = 0.03;  // rad
   std::vector<TurningPair> pairs;
   const auto add = [&](const Problem& seen, std::size_t most_each, std::size_t most) {
-    const std::vector<Turning> first = turnings(seen, 0, base.time, base.impulse), second = turnings(seen, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
+    const std::vector<ImpactTurning> first = turnings(seen, 0, base.time, base.impulse), second = turnings(seen, 1, base.time, Vec3(-base.impulse / base.mass_ratio));
     std::vector<TurningPair> some;
     for (std::size_t i = 0; i < std::min(first.size(), most_each); ++i)
       for (std::size_t j = 0; j < std::min(second.size(), most_each); ++j) some.push_back({first[i], second[j]});

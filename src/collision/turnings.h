@@ -10,7 +10,7 @@
 namespace unseen::collision {
 
 /// A body's turning through the impact: at it, and the lever (across the impulse) that the change of momentum asks for.
-struct Turning {
+struct ImpactTurning {
   Quat q = Quat::Identity();
   Vec3 h = Vec3::Zero(), h_after = Vec3::Zero(), lever = Vec3::Zero();
   bool has_lever = false;
@@ -24,11 +24,11 @@ struct Turning {
 };
 
 /// Pairs of guesses before and after, ranked by how well they meet at the impact. `impulse` is the body's own, per its mass.
-std::vector<Turning> turnings(const Problem& problem, int body, double time, const Vec3& impulse);
+std::vector<ImpactTurning> turnings(const Problem& problem, int body, double time, const Vec3& impulse);
 
 /// Both bodies' turnings.
 struct TurningPair {
-  Turning a, b;
+  ImpactTurning a, b;
   double cost() const { return a.cost + b.cost; }
 };
 
