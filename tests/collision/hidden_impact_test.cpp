@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// Impacts that nobody sees for long: flights in space tell of them.
+#include "collision/meeting_in_space.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "collision/pair_links.h"
+#include "collision/pair_scene.h"
+#include "unseen/core/random.h"
+
+namespace unseen::collision::test {
+namespace {
+
+/// Balls in space whose distances change: perspective bends what is no parabola of the picture then.
+Vec3 in_space(int body, double s, double pushed = 1.0) {
+  const Vec3 push = pushed * Vec3(-3.0, 0.3, 0.3);
+  const Vec3 v = body == 0 ? Vec3(Vec3(2.2, -0.2, -1.6) + (s < 0 ? 0.0 : 1.0) * push) : Vec3(Vec3(-1.1, -0.3, 1.5) - (s < 0 ? 0.0 : 0.75) * push);
+  return Vec3(body == 0 ? -0.07 : 0.07, -0.2, 2.5) + s * v + Vec3(0, 4.905 * s * s, 0);
+}
+
+Arc arc_in_space(int body, int from, int to, double radius, double impact, Random& random, double pushed = 1.0) {
+  Arc arc;
+  for (int k = from; k < to; ++k) {
+    const Vec3 p = in_space(body, (k - impact) / kFps, pushed);
+    Candidate c;
+    c.frame = k;
+    c.u = k;
+    c.pixel = Vec2(640, 360) + kFocal / p.z() * p.head<2>() + 0.15 * Vec2(random.normal(), random.normal());
+    c.diameter = 2.0 * radius * kFocal / p.z();
+    arc.points.push_back(c);
+  }
+  return arc;
+}
+
+TEST(HiddenImpact, FlightsInSpaceTimeAnImpactThatNobodySeesForLong) {
+  Random random(19);
+  constexpr double kImpact = 60.0, kNoise = 0.3;
+  const double radius[2] = {0.08, 0.06};
+  std::array<Arc, 4> arcs;
+  for (int i = 0; i < 4; ++i) arcs[static_cast<std::size_t>(i)] = arc_in_space(i % 2, i < 2 ? 10 : 80, i < 2 ? 40 : 110, radius[i % 2], kImpact, random);
+  const auto meeting = meet_in_space(pair_shot(radius[0], radius[1]), camera(), {&arcs[0], &arcs[1], &arcs[2], &arcs[3]}, 39.0, 80.0, kNoise, kFps);
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(meeting->u, kImpact, 0.75);
+  EXPECT_LT(meeting->misfit, 1.5);
+  EXPECT_LT(meeting->opposed, -0.95);
+  EXPECT_NEAR(meeting->least_change, Vec2(-3.0, 0.3).norm() / Vec2(2.2, -0.2).norm(), 0.1);
+  for (int body = 0; body < 2; ++body) {
+    const Vec3 p = in_space(body, 0.0);
+    EXPECT_LT((meeting->pixels[static_cast<std::size_t>(body)] - Vec2(640, 360) - kFocal / p.z() * p.head<2>()).norm(), 2.0);
+  }
+  const double in_the_picture = common_time(link_of(arcs[0], arcs[2], kNoise), link_of(arcs[1], arcs[3], kNoise), kNoise);
+  EXPECT_LT(std::abs(meeting->u - kImpact), 0.6 * std::abs(in_the_picture - kImpact));
+}
+
+/// What flights in space tell of two bodies that are hidden for a while, between silhouettes that may wander by kWander (px).
+constexpr double kWander = 8.0;
+std::vector<Collision> collisions_in_space(double pushed, double impact, std::uint64_t seed) {
+  const double radius[2] = {0.08, 0.06};
+  Random random(seed);
+  std::vector<Arc> arcs;
+  for (int i = 0; i < 4; ++i) {
+    arcs.push_back(arc_in_space(i % 2, i < 2 ? 10 : 80, i < 2 ? 40 : 110, radius[i % 2], impact, random, pushed));
+    CurveSums sums(arcs.back().begin());
+    for (Candidate& c : arcs.back().points) {
+      c.colored = true;
+      c.color = i % 2 == 0 ? Vec3(200, 60, 40) : Vec3(40, 60, 200);
+      sums.add(c.u, c.pixel);
+    }
+    arcs.back().curve = sums.fit();
+  }
+  const Link link = link_of(arcs[1], arcs[3], kWander);
+  EXPECT_FALSE(joint_at(impact, link.curve_before, link.curve_after, kWander, link.diameter).sudden);
+  return find_collisions(pair_shot(radius[0], radius[1]), camera(), arcs, kWander, kFps);
+}
+
+TEST(HiddenImpact, FlightsInSpaceTellOfAnImpactThatTheNoiseOfSilhouettesHides) {
+  const std::vector<Collision> found = collisions_in_space(1.0, 60.0, 20);
+  ASSERT_FALSE(found.empty());
+  EXPECT_NEAR(found[0].u, 60.0, 1.5);
+  EXPECT_EQ(found[0].a.before % 2, found[0].a.after % 2);
+}
+
+TEST(HiddenImpact, HardlyAChangeBehindSomethingIsNoCollision) {
+  for (const double pushed : {0.0, 0.03, 0.05})
+    for (std::uint64_t seed = 20; seed < 24; ++seed) EXPECT_TRUE(collisions_in_space(pushed, 60.0, seed).empty()) << pushed << " " << seed;
+}
+
+}  // namespace
+}  // namespace unseen::collision::test
