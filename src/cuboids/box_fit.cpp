@@ -243,9 +243,9 @@ Mat3 box_axes(const Observation& seen, const DepthView& view, std::span<const in
   return leans ? free : turned(std::atan2(free(1, 0), free(0, 0)));
 }
 
-OrientedBox bound(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
+OrientedBox bound(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
                   double voxel) {
-  Vec3 low, high, extent;
+  Vec3 low, high, extent, middle;
   for (int k = 0; k < 3; ++k) {
     double smallest = std::numeric_limits<double>::infinity(), greatest = -smallest;
     for (const int i : points) {
@@ -253,15 +253,21 @@ OrientedBox bound(const Observation& seen, std::span<const int> points, std::spa
       greatest = std::max(greatest, axes.col(k).dot(seen.points[i]));
     }
     extent[k] = greatest - smallest;
+    middle[k] = 0.5 * (greatest + smallest);
   }
   const Vec3 viewpoint = axes.transpose() * seen.T_world_camera.translation;
+  Vec3 lean = Vec3::Zero();
+  lean.head<2>() = lean_of_outline(seen, view, faces, axes);
   double near = kEndSlack;
   for (const int i : points) near += kEndSigmas * seen.graph.sigma[i] / static_cast<double>(points.size());
   for (int k = 0; k < 3; ++k) {
+    // What leans as a whole, or is skewed, is as wide as it is at each height.
+    Mat3 skewed = axes;
+    skewed.col(k) -= lean[k] * axes.col(2);
     for (const double sign : {-1.0, 1.0}) {
       // A side seen edge on ends the slices along one of the other axes, not along both.
-      double end = sign * std::max(sign * end_of(seen, points, axes, k, (k + 1) % 3, sign),
-                                   sign * end_of(seen, points, axes, k, (k + 2) % 3, sign));
+      double end = lean[k] * middle.z() + sign * std::max(sign * end_of(seen, points, skewed, k, (k + 1) % 3, sign),
+                                                          sign * end_of(seen, points, skewed, k, (k + 2) % 3, sign));
       double largest = 0;
       for (const Face* face : faces) largest = std::max(largest, sign * axes.col(k).dot(face->plane.normal) > kFaceCosine ? face->area : 0.0);
       // The outermost of the large faces that look this way; one that is small for the side only where the points end too.

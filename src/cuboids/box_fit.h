@@ -23,7 +23,7 @@ double explained_share(std::span<const int> points, std::span<const Face* const>
 
 /// The box with the given axes around what was seen: sides where a face was seen by the face's mean, the others where
 /// the points end (median over slices), at least a voxel thick away from the viewpoint.
-OrientedBox bound(const Observation& seen, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
+OrientedBox bound(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
                   double voxel);
 
 }  // namespace unseen::cuboids

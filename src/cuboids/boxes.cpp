@@ -127,7 +127,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     context.check();
     const ObjectPart& part = parts[k];
     const double voxel = voxel_of(part);
-    boxes[k] = bound(seen, part.points, faces_of[k], box_axes(seen, view, part.points, faces_of[k], part.free_orientation), voxel);
+    boxes[k] = bound(seen, view, part.points, faces_of[k], box_axes(seen, view, part.points, faces_of[k], part.free_orientation), voxel);
     full[k] = filled_share(view, set_down(seen, part.points, boxes[k]), voxel) >= options.fill;
   }
   const std::vector<char> remnant = find_remnants(seen, parts, boxes, full);
@@ -143,7 +143,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     }
     const double voxel = voxel_of(part);
     for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, set_down(seen, part.points, boxes[k]), voxel, options.fill))
-      add(part, slab, bound(seen, slab, {}, boxes[k].axes, voxel));
+      add(part, slab, bound(seen, view, slab, {}, boxes[k].axes, voxel));
   }
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     if (!stands_on_another(cuboids, cuboids[i].initial)) cuboids[i].box = cuboids[i].initial = set_downs[i];

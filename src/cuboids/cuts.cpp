@@ -12,6 +12,7 @@
 #include "cuboids/box_fit.h"
 #include "cuboids/groove.h"
 #include "cuboids/hollow.h"
+#include "cuboids/outline.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -278,13 +279,13 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
     const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], false);
     std::vector<std::vector<int>> open{part.points};
     if (explained_share(part.points, faces.of_group[k], axes) >= kFlat)  // it looks like one box
-      open = cut_at_grooves(seen, view, part.points, bound(seen, part.points, faces.of_group[k], axes, 0.0), fewest_points(part.points.size()));
+      open = cut_at_grooves(seen, view, part.points, bound(seen, view, part.points, faces.of_group[k], axes, 0.0), fewest_points(part.points.size()));
     while (!open.empty()) {
       context.check();
       std::vector<int> points = std::move(open.back());
       open.pop_back();
       const std::vector<const Face*> own = faces_within(faces, points);
-      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, box_axes(seen, view, points, own, false));
+      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, leaning_axes(seen, view, own, box_axes(seen, view, points, own, false)));
       const double hollow = has_steps(seen, own, points.size()) ? kHollowStep : kHollow;
       const Piece whole = piece_of(seen, interior, points);
       if (whole.hollow.free <= hollow * whole.hollow.within) {

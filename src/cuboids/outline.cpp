@@ -11,7 +11,11 @@ namespace unseen::cuboids {
 namespace {
 
 const double kLevelFace = std::cos(radians(10.0));
+const double kOffSine = std::sin(radians(15.0));
 const double kMostTurn = radians(10.0);     // an edge that is turned farther is not that of the side
+const double kLeastLean = radians(2.0);
+constexpr double kUpright = 1.0 - 1e-9;
+constexpr double kLeanErrors = 4.0, kAlikeErrors = 2.0;
 constexpr double kSliceSpacings = 2.5;
 constexpr std::size_t kFewestSlices = 8;
 constexpr double kShortestEdge = 0.03;      // m
@@ -69,6 +73,22 @@ std::optional<Slope> slope_of(std::vector<Vec2> ends) {
   }
 }
 
+/// By how much (tangent) the largest upright face across `out` leans toward it.
+double lean_along(const Observation& seen, const DepthView& view, std::span<const Face* const> faces, const Vec3& out) {
+  const Face* largest = nullptr;
+  for (const Face* face : faces) {
+    const Vec3& n = face->plane.normal;
+    if (std::abs(n.z()) < kOffSine && std::abs(n.dot(out)) < kOffSine && (!largest || face->area > largest->area)) largest = face;
+  }
+  if (!largest) return 0.0;
+  const auto one = slope_of(free_ends(seen, view, *largest, Vec3::UnitZ(), out));
+  const auto other = slope_of(free_ends(seen, view, *largest, Vec3::UnitZ(), -out));
+  if (!one || !other) return 0.0;
+  const double lean = 0.5 * (one->angle - other->angle), error = 0.5 * std::hypot(one->error, other->error);
+  const bool alike = std::abs(one->angle + other->angle) < kAlikeErrors * 2.0 * error;
+  return alike && std::abs(lean) < kMostTurn && std::abs(lean) > std::max(kLeastLean, kLeanErrors * error) ? std::tan(lean) : 0.0;
+}
+
 }  // namespace
 
 Vec2 quarter_turn(double angle, double information) { return information * Vec2(std::cos(4.0 * angle), std::sin(4.0 * angle)); }
@@ -84,6 +104,17 @@ Vec2 turn_of_outline(const Observation& seen, const DepthView& view, std::span<c
     }
   }
   return sum;
+}
+
+Vec2 lean_of_outline(const Observation& seen, const DepthView& view, std::span<const Face* const> faces, const Mat3& axes) {
+  if (axes(2, 2) < kUpright) return Vec2::Zero();
+  return {lean_along(seen, view, faces, axes.col(0)), lean_along(seen, view, faces, axes.col(1))};
+}
+
+Mat3 leaning_axes(const Observation& seen, const DepthView& view, std::span<const Face* const> faces, const Mat3& axes) {
+  const Vec2 lean = lean_of_outline(seen, view, faces, axes);
+  if (lean.isZero()) return axes;
+  return Eigen::Quaterniond::FromTwoVectors(axes.col(2), axes * Vec3(lean.x(), lean.y(), 1.0)).toRotationMatrix() * axes;
 }
 
 }  // namespace unseen::cuboids

@@ -88,7 +88,7 @@ OrientedBox fitted(const Observation& seen, const DepthView& view, const std::ve
   box.axes = *axes;
   double sigma = 0;
   for (const int i : points) sigma += seen.graph.sigma[i] / static_cast<double>(points.size());
-  const OrientedBox around = bound(seen, points, faces, *axes, sigma);
+  const OrientedBox around = bound(seen, view, points, faces, *axes, sigma);
   const Vec3 center = axes->transpose() * box.center, to = axes->transpose() * around.center;
   Vec3 low, high;
   for (int k = 0; k < 3; ++k) {

@@ -16,5 +16,19 @@ TEST(Outline, TellsTheTurnOfABoxWhoseSidesAreHidden) {  // by a board before it,
   }
 }
 
+TEST(Outline, OfWhatLeansSidewaysIsNoWider) {  // a carton that is skewed; a level box around all of it is 11 mm wider
+  for (const double lean : {-3.0, 3.0}) {
+    Scene scene;
+    scene.boxes = {upright(0.02, 0.6, 0, {0.046, 0.137, 0.213}, 0)};
+    scene.boxes[0].axes = Eigen::AngleAxisd(radians(lean), Vec3::UnitY()).toRotationMatrix();
+    const Perceived p = perceive(render(scene));
+    const OrientedBox& box = nearest(p.fitted, scene.boxes[0].center).box;
+    EXPECT_NEAR(2.0 * box.half_size.x(), 0.046, 0.005) << lean;
+    EXPECT_NEAR(2.0 * box.half_size.z(), 0.213, 0.004) << lean;
+    EXPECT_NEAR(box.center.x(), 0.02, 0.003) << lean;
+    EXPECT_DOUBLE_EQ(box.axes(2, 2), 1.0) << lean;
+  }
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test
