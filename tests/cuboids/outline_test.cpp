@@ -30,5 +30,14 @@ TEST(Outline, OfWhatLeansSidewaysIsNoWider) {  // a carton that is skewed; a lev
   }
 }
 
+TEST(Outline, OfWhatIsWiderAboveDoesNotLean) {  // one end upright, the other 7 degrees aslant
+  Scene scene;
+  scene.boxes = {upright(-0.02, 0.6, 0, {0.08, 0.1, 0.2}, 0), upright(0, 0.6, 0, {0.08, 0.1, 0.2}, 0)};
+  scene.boxes[1].axes = Eigen::AngleAxisd(radians(7.0), Vec3::UnitY()).toRotationMatrix();
+  const Perceived p = perceive(render(scene));
+  const OrientedBox& box = nearest(p.fitted, {0, 0.6, 0.1}).box;
+  EXPECT_NEAR(box.center.x() - box.half_size.x(), -0.06, 0.004);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test
