@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <ceres/ceres.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 
 #include "cuboids/edge_search.h"
 #include "cuboids/observation.h"
+#include "cuboids/picture_registration.h"
 #include "cuboids/slabs.h"
 
 namespace unseen::cuboids {
@@ -16,11 +18,7 @@ namespace {
 constexpr int kRounds = 4;                // closest points are renewed in each
 constexpr double kReach[kRounds] = {10.0, 6.0, 4.0, 4.0};  // pixels to an edge
 constexpr double kPixelError = 1.5;       // pixels, of an edge
-constexpr double kLargestShift = 8.0;     // pixels between colour and depth
-constexpr double kShiftCost = 0.04;       // pixels of mean distance a pixel of shift has to gain
-constexpr double kMostRegistered = 2.0;   // pixels of mean distance
 constexpr double kFewestSamples = 12;
-constexpr std::size_t kFewestCreaseSamples = 30;
 constexpr double kInside = 1.5, kOutside = 8.0;  // σ of a side that was seen to end, in mm in and out: measured edges
                                                  // fall short, but points that were measured are there
 constexpr double kSeenSide = 1.5;                // mm, σ of a side that was seen as a face
@@ -121,27 +119,12 @@ struct Problem {
   const RgbdFrame& frame;
   const ImageEdges& edges;
   RigidTransform T_camera_world;
-  Vec2 shift;
+  PictureRegistration registration;
 
   Vec2 pixel(const OrientedBox& box, const EdgeSample& sample) const {
     return frame.camera.project(T_camera_world * (box.center + box.axes * local_point(sample, -box.half_size, box.half_size)));
   }
 };
-
-/// The shift between colour and depth that brings all boxes' edges closest to the picture's.
-Vec2 registration_shift(const Problem& problem, const std::vector<Vec2>& pixels) {
-  Vec2 best = Vec2::Zero();
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (double dv = -kLargestShift; dv <= kLargestShift; ++dv)
-    for (double du = -kLargestShift; du <= kLargestShift; ++du) {
-      double sum = 0;
-      for (const Vec2& p : pixels) sum += std::min(problem.edges.distance(p + Vec2(du, dv)), 6.0);
-      const double cost = sum / static_cast<double>(pixels.size()) + kShiftCost * std::hypot(du, dv);
-      if (cost < best_cost) best_cost = cost, best = {du, dv};
-    }
-  // Faint creases are in no picture's edges; then there is nothing to register.
-  return best_cost < kMostRegistered ? best : Vec2(Vec2::Zero());
-}
 
 Change align(const Problem& problem, const OrientedBox& box, const std::vector<EdgeSample>& samples, const DepthResidual& depth) {
   Change change{};
@@ -154,8 +137,8 @@ Change align(const Problem& problem, const OrientedBox& box, const std::vector<E
       for (to = from; to < samples.size() && samples[to].same_edge(samples[from]); ++to) {
         EdgeSample ahead = samples[to];
         ahead.share += ahead.share < 0.5 ? 0.1 : -0.1;
-        points.push_back(problem.pixel(now, samples[to]) + problem.shift);
-        const Vec2 along = (problem.pixel(now, ahead) + problem.shift - points.back()).normalized();
+        points.push_back(problem.registration.to_picture(problem.pixel(now, samples[to])));
+        const Vec2 along = (problem.registration.to_picture(problem.pixel(now, ahead)) - points.back()).normalized();
         // Directions of one edge agree in sign.
         const Vec2 normal(-along.y(), along.x());
         across.push_back(across.empty() || normal.dot(across.front()) > 0.0 ? normal : Vec2(-normal));
@@ -164,7 +147,7 @@ Change align(const Problem& problem, const OrientedBox& box, const std::vector<E
       for (std::size_t n = 0; n < offsets.size(); ++n) {
         if (std::isnan(offsets[n])) continue;
         ++found;
-        const Vec2 target = points[n] + offsets[n] * across[n] - problem.shift;
+        const Vec2 target = problem.registration.to_depth(points[n] + offsets[n] * across[n]);
         auto* residual = new EdgeResidual{box, problem.frame.camera, problem.T_camera_world, samples[from + n], target, across[n]};
         sum.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeResidual, 1, 7>(residual), new ceres::CauchyLoss(1.5), change.data());
       }
@@ -189,16 +172,22 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
                           std::vector<Cuboid>& cuboids, const Options& options, Context& context) {
   if (!options.image_edges || frame.color.empty() || frame.is_fused() || cuboids.empty()) return;
   const ImageEdges edges(frame);
-  Problem problem{frame, edges, seen.T_world_camera.inverse(), Vec2::Zero()};
+  Problem problem{frame, edges, seen.T_world_camera.inverse(), {}};
   std::vector<std::vector<EdgeSample>> samples(cuboids.size());
-  std::vector<Vec2> pixels;
+  std::vector<Vec2> creases, all;
   for (std::size_t k = 0; k < cuboids.size(); ++k) {
     samples[k] = visible_edge_samples(cuboids[k].box, frame, seen.T_world_camera, view);
-    // Only where two seen sides meet: depth falls short at silhouettes, on one side more than on the other.
-    for (const EdgeSample& sample : samples[k])
-      if (sample.crease) pixels.push_back(problem.pixel(cuboids[k].box, sample));
+    for (const EdgeSample& sample : samples[k]) {
+      const Vec2 pixel = problem.pixel(cuboids[k].box, sample);
+      if (sample.crease) creases.push_back(pixel);
+      const bool below = (sample.i == 2 && sample.side_i < 0.0) || (sample.j == 2 && sample.side_j < 0.0);
+      if (!below) all.push_back(pixel);
+    }
   }
-  if (pixels.size() >= kFewestCreaseSamples) problem.shift = registration_shift(problem, pixels);
+  problem.registration = register_picture(edges, creases, all, {frame.camera.cx, frame.camera.cy});
+  if (const Vec2& scale = problem.registration.scale; !scale.isOnes())
+    context.warn(fmt::format("{}: the colour image does not fit the depth image: it seems {:.2f} times as wide and {:.2f} times as high; boxes' edges are sought so, but register it for better sizes",
+                             frame.name, scale.x(), scale.y()));
   context.check();
 
   std::vector<std::vector<Vec3>> points(cuboids.size());

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <chrono>
 
+#include "cuboids/picture_registration.h"
 #include "perception_scenes.h"
 #include "unseen/core/error.h"
 
@@ -283,6 +284,55 @@ TEST(ImageEdges, WinBackWhatTheSensorDropped) {
   options.image_edges = false;
   const Perceived off = perceive(render(scene), options);
   EXPECT_EQ(off.cuboids[0].box.half_size, off.fitted[0].box.half_size);
+}
+
+/// Squeezed about the middle, as by a camera of another aspect; depth stays as it is.
+RgbdFrame squeezed(RgbdFrame frame, double across, double down) {
+  const auto color = frame.color;
+  const int w = frame.camera.width, h = frame.camera.height;
+  for (int v = 0; v < h; ++v)
+    for (int u = 0; u < w; ++u) {
+      const long x = std::clamp(std::lround(frame.camera.cx + (u - frame.camera.cx) / across), 0L, w - 1L);
+      const long y = std::clamp(std::lround(frame.camera.cy + (v - frame.camera.cy) / down), 0L, h - 1L);
+      frame.color[static_cast<std::size_t>(v) * w + u] = color[static_cast<std::size_t>(y) * w + x];
+    }
+  return frame;
+}
+
+Scene two_apart() {
+  Scene scene;
+  scene.boxes = {upright(-0.2, 0.75, 0, {0.2, 0.12, 0.15}, 15), upright(0.2, 0.75, 0, {0.1, 0.15, 0.12}, 30)};
+  return scene;
+}
+
+TEST(ImageEdges, TellTheScaleOfThePicture) {
+  const Scene scene = two_apart();
+  const RgbdFrame frame = render(scene);
+  const DepthView view(frame, camera_of(scene), depth_noise(frame, {}));
+  std::vector<Vec2> creases, all;
+  for (const OrientedBox& box : scene.boxes)
+    for (const EdgeSample& sample : visible_edge_samples(box, frame, camera_of(scene), view)) {
+      all.push_back(frame.camera.project(camera_of(scene).inverse() * (box.center + box.axes * local_point(sample, -box.half_size, box.half_size))));
+      if (sample.crease) creases.push_back(all.back());
+    }
+  for (const auto& [across, down] : {std::pair{1.0, 1.0}, {0.93, 1.0}, {0.95, 0.93}}) {
+    const PictureRegistration r = register_picture(ImageEdges(squeezed(frame, across, down)), creases, all, {frame.camera.cx, frame.camera.cy});
+    EXPECT_NEAR(r.scale.x(), across, 0.01);
+    EXPECT_NEAR(r.scale.y(), down, 0.01);
+    EXPECT_LT(r.shift.norm(), 1.5);
+    EXPECT_LT((r.to_depth(r.to_picture(all.front())) - all.front()).norm(), 1e-9);
+  }
+}
+
+TEST(ImageEdges, WinBackInAPictureOfAnotherScaleToo) {
+  Scene scene = two_apart();
+  scene.dropout = 2;
+  const Perceived p = perceive(squeezed(render(scene), 0.93, 1.0));
+  ASSERT_EQ(p.fitted.size(), 2u);
+  for (const OrientedBox& truth : scene.boxes) {
+    EXPECT_GT(size_error(nearest(p.fitted, truth.center).box, truth), 0.004);
+    EXPECT_LT(size_error(nearest(p.cuboids, truth.center).box, truth), 0.003);
+  }
 }
 
 /// The picture shows a rim around the box, a shadow say, but depth saw the ground there.
