@@ -211,13 +211,15 @@ Mat3 level_axes(const Observation& seen, const DepthView& view, std::span<const 
   const auto angle = [](const Vec2& sum) { return 0.25 * std::atan2(sum.y(), sum.x()); };
   const Vec2 turn = turn_of_faces(seen, faces);
   double yaw = angle(turn);
+  Vec2 told = turn_of_outline(seen, view, faces, yaw);
   if (turn.norm() < kEnoughInformation) {
     std::vector<Vec2> flat;
     for (const int i : points) flat.emplace_back(seen.points[i].x(), seen.points[i].y());
-    yaw = rectangle_turn(flat);
+    const double rectangle = rectangle_turn(flat);
+    const Vec2 other = turn_of_outline(seen, view, faces, rectangle);
+    if (told.isZero() || (turn + other).norm() > (turn + told).norm()) yaw = rectangle, told = other;
   }
-  const Vec2 outline = turn_of_outline(seen, view, faces, yaw);
-  if (!outline.isZero()) yaw = angle(turn + outline);
+  if (!told.isZero()) yaw = angle(turn + told);
   return leant(seen, points, faces, turned(std::remainder(yaw, 0.5 * kPi)));
 }
 

@@ -187,14 +187,15 @@ std::vector<Plane> planes_before(const Observation& seen, const std::vector<cons
   return planes;
 }
 
-/// Whether two large faces look the same way from different levels, as no box has them.
+/// Whether two large faces look the same way from different levels, as no box has them: one lies above the other, and that below it. Each of two pieces of
+/// a side that bulges lies below the other.
 bool has_steps(const Observation& seen, const std::vector<const Face*>& faces, std::size_t points) {
   const auto is_large = [&](const Face* face) { return static_cast<double>(face->points.size()) > kLargeFace * static_cast<double>(points); };
   for (std::size_t a = 0; a < faces.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
       if (!is_large(faces[a]) || !is_large(faces[b]) || faces[a]->plane.normal.dot(faces[b]->plane.normal) < kParallelCosine) continue;
-      const double step = std::min(std::abs(faces[a]->plane.signed_distance(faces[b]->center)), std::abs(faces[b]->plane.signed_distance(faces[a]->center)));
-      if (step > kStepSigmas * seen.graph.sigma[faces[a]->points.front()]) return true;
+      const double rise = faces[a]->plane.signed_distance(faces[b]->center), fall = -faces[b]->plane.signed_distance(faces[a]->center);
+      if (rise * fall > 0.0 && std::min(std::abs(rise), std::abs(fall)) > kStepSigmas * seen.graph.sigma[faces[a]->points.front()]) return true;
     }
   return false;
 }
@@ -208,7 +209,7 @@ std::vector<Piece> cut_apart(const Observation& seen, const Interior& interior, 
     context.check();
     Piece piece = std::move(open.back());
     open.pop_back();
-    const bool hollow_enough = piece.hollow.free > hollow * piece.hollow.within;
+    const bool hollow_enough = piece.hollow.share() > hollow;
     std::vector<Piece> parts;
     for (const Plane& plane : hollow_enough ? best_cuts(seen, interior, planes, piece) : std::vector<Plane>()) {
       std::vector<Piece> cut = cut_at(seen, interior, piece.points, plane, side);
@@ -285,10 +286,14 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
       std::vector<int> points = std::move(open.back());
       open.pop_back();
       const std::vector<const Face*> own = faces_within(faces, points);
-      const Interior interior = look_into(seen, view, points, faces.faces.face_of_point, leaning_axes(seen, view, own, box_axes(seen, view, points, own, false)));
+      Interior interior = look_into(seen, view, points, faces.faces.face_of_point, box_axes(seen, view, points, own, false));
+      Piece whole = piece_of(seen, interior, points);
+      if (const Mat3 leaning = leaning_axes(seen, view, own, interior.axes); leaning != interior.axes) {
+        Interior other = look_into(seen, view, points, faces.faces.face_of_point, leaning);
+        if (Piece same = piece_of(seen, other, points); same.hollow.share() < whole.hollow.share()) interior = std::move(other), whole = std::move(same);
+      }
       const double hollow = has_steps(seen, own, points.size()) ? kHollowStep : kHollow;
-      const Piece whole = piece_of(seen, interior, points);
-      if (whole.hollow.free <= hollow * whole.hollow.within) {
+      if (whole.hollow.share() <= hollow) {
         keep(std::move(points));
         continue;
       }

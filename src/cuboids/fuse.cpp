@@ -79,6 +79,8 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
   axes.col(2).normalize();
   axes.col(0) = (axes.col(0) - axes.col(0).dot(axes.col(2)) * axes.col(2)).normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
+  // What the turn of either may be wrong by moves the other's ends.
+  const double turned = 0.5 * line_angle(a.initial.axes.col(0), axes_b->col(0)) * (a.initial.center - b.initial.center).norm();
   std::array<Span, 3> spans;
   int apart = -1;
   for (int k = 0; k < 3; ++k) {
@@ -91,7 +93,7 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
       continue;
     }
     // One end of both lies in one plane; where the other one of the shorter part ends, something hides it.
-    if (std::min(std::abs(first.low - second.low), std::abs(first.high - second.high)) > 2.0 * tolerance) return std::nullopt;
+    if (std::min(std::abs(first.low - second.low), std::abs(first.high - second.high)) > 2.0 * tolerance + std::min(turned, tolerance)) return std::nullopt;
   }
   if (apart < 0) return std::nullopt;
   const OrientedBox whole = box_of(axes, spans);

@@ -51,6 +51,7 @@ Interior look_into(const Observation& seen, const DepthView& view, std::span<con
 /// How many cells of an interior are within a hull.
 struct Hollow {
   double within = 0, free = 0;
+  double share() const { return within > 0.0 ? free / within : 0.0; }
 };
 Hollow hollow_of(const Interior& interior, const Hull& hull);
 

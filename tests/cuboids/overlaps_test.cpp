@@ -140,5 +140,17 @@ TEST(Fuse, LeavesApartWhatHasAFreeGap) {
   }
 }
 
+TEST(Fuse, AllowsForTheTurnOfEitherPiece) {
+  // Along axes between theirs, ends of pieces 0.45 m apart are some 14 mm out of line, more than twice the tolerance; where one is turned by 2 degrees, 8 mm of it are of that.
+  for (const double turn : {0.0, 2.0}) {
+    std::vector<Cuboid> cuboids = {cuboid(box({-0.225, 0, 0.1}, {0.2, 0.3, 0.2})), cuboid(box({0.225, 0.004, 0.1}, {0.2, 0.2, 0.2}))};
+    cuboids[1].initial.axes = Eigen::AngleAxisd(radians(turn), Vec3::UnitZ()).toRotationMatrix();
+    const double end = 0.15 - (turn > 0.0 ? 0.006 : 0.014);  // of the second, beside 0.15 of the first
+    cuboids[1].initial.center.y() = end - 0.1;
+    std::vector<double> tolerance(2, 0.006);
+    EXPECT_EQ(fuse_pieces(view_of(1.0f), cuboids, tolerance), turn > 0.0 ? 1u : 0u) << turn;
+  }
+}
+
 }  // namespace
 }  // namespace unseen::cuboids

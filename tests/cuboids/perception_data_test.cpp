@@ -28,12 +28,42 @@ RgbdFrame load(const fs::path& folder) {
   return frame;
 }
 
+void mirror(RgbdFrame& frame) {
+  frame.camera.cx = frame.camera.width - 1 - frame.camera.cx;
+  for (int y = 0; y < frame.camera.height; ++y) {
+    std::reverse(frame.depth.begin() + y * frame.camera.width, frame.depth.begin() + (y + 1) * frame.camera.width);
+    std::reverse(frame.color.begin() + y * frame.camera.width, frame.color.begin() + (y + 1) * frame.camera.width);
+  }
+}
+
+/// Without its first row and column.
+void crop(RgbdFrame& frame) {
+  std::size_t kept = 0;
+  for (std::size_t i = frame.camera.width; i < frame.depth.size(); ++i) {
+    if (i % frame.camera.width == 0) continue;
+    frame.depth[kept] = frame.depth[i];
+    frame.color[kept++] = frame.color[i];
+  }
+  frame.depth.resize(kept);
+  frame.color.resize(kept);
+  frame.camera.width -= 1, frame.camera.height -= 1;
+  frame.camera.cx -= 1.0, frame.camera.cy -= 1.0;
+}
+
+/// Each depth off by a millimetre, or not.
+void shake(RgbdFrame& frame, std::uint64_t seed) {
+  Random random(seed);
+  for (float& depth : frame.depth)
+    if (depth > 0.0f) depth += 0.001f * static_cast<float>(std::lround(random.uniform(-1.5, 1.5)));
+}
+
+const std::map<std::string, std::size_t> kParts{{"mosd_learn7", 2},  {"mosd_learn18", 3}, {"mosd_learn19", 2}, {"mosd_learn20", 2},
+                                                {"mosd_learn22", 3}, {"mosd_learn29", 3}, {"mosd_test3", 2}};
+
 TEST(MeasuredFrames, OneBoxForEachVisiblePart) {
   const fs::path data = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/cuboids";
   if (!fs::exists(data)) GTEST_SKIP() << "the shared frames are not there";
-  const std::map<std::string, std::size_t> parts{{"mosd_learn7", 2},  {"mosd_learn18", 3}, {"mosd_learn19", 2}, {"mosd_learn20", 2},
-                                                 {"mosd_learn22", 3}, {"mosd_learn29", 3}, {"mosd_test3", 2}};
-  for (const auto& [name, count] : parts) {
+  for (const auto& [name, count] : kParts) {
     if (!fs::exists(data / name / "depth.png")) GTEST_SKIP() << name << " is not there";
     const Perceived p = perceive(load(data / name));
     EXPECT_EQ(p.cuboids.size(), count) << name;
@@ -43,6 +73,22 @@ TEST(MeasuredFrames, OneBoxForEachVisiblePart) {
       EXPECT_NEAR(2.0 * box.half_size.x(), 0.244, 0.008);
       EXPECT_NEAR(2.0 * box.half_size.z(), 0.155, 0.008);
     }
+  }
+}
+
+TEST(MeasuredFrames, AsManyBoxesMirroredCroppedAndShaken) {
+  const fs::path data = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/cuboids";
+  if (!fs::exists(data)) GTEST_SKIP() << "the shared frames are not there";
+  for (const auto& [name, count] : kParts) {
+    if (!fs::exists(data / name / "depth.png")) GTEST_SKIP() << name << " is not there";
+    const auto count_of = [&](const auto& change) {
+      RgbdFrame frame = load(data / name);
+      change(frame);
+      return perceive(frame).cuboids.size();
+    };
+    EXPECT_EQ(count_of(mirror), count) << name << " mirrored";
+    EXPECT_EQ(count_of(crop), count) << name << " cropped";
+    for (const std::uint64_t seed : {1, 2, 3}) EXPECT_EQ(count_of([seed](RgbdFrame& frame) { shake(frame, seed); }), count) << name << " shaken " << seed;
   }
 }
 
