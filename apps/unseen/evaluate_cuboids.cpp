@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "evaluate.h"
@@ -43,22 +44,22 @@ int run(EvaluateCuboidsArguments& args) {
   OptionTable table = args.table();
   if (resolve_or_dump(table, args.common, "evaluate", args.given)) return kSolved;
   require(args.result, "OUT");
-  require(args.truth, "--truth TRUTH");
+  if (!args.options.referee || !args.frame.empty()) require(args.truth, "--truth TRUTH");
 
   Session session(args.common);
   Context& context = session.context;
 
   const fs::path file = result_file(args.result);
   const cuboids::Completion result = report::read_cuboids_result(file);
-  const cuboids::Truth truth = read_truth(args);
+  const std::optional<cuboids::Truth> truth = args.truth.empty() ? std::nullopt : std::optional(read_truth(args));
   report::CuboidsEvaluation e;
   e.result_path = args.result;
   e.truth_path = args.truth;
-  e.family = truth.family;
+  if (truth) e.family = truth->family;
   Summary summary;
   {
     const Stage stage(context, summary, "evaluate");
-    e.scores = cuboids::evaluate(result, truth, args.options, context);
+    e.scores = truth ? cuboids::evaluate(result, *truth, args.options, context) : cuboids::evaluate(result, args.options, context);
   }
   publish(e, file.parent_path(), args.common, session);
   return kSolved;
@@ -71,13 +72,13 @@ Command add_evaluate_cuboids(CLI::App& evaluate) {
   CLI::App* sub =
       evaluate.add_subcommand("cuboids", "Measure a result of unseen cuboids, and write evaluation.json into it");
   sub->add_option("OUT", args->result, "the folder that unseen cuboids wrote");
-  sub->add_option("--truth", args->truth, "truth.json of unseen synth cuboids, or measured sizes and contacts")
+  sub->add_option("--truth", args->truth, "truth.json of unseen synth cuboids, or measured sizes and contacts; without it, whether the result stands")
       ->type_name("TRUTH");
   sub->add_option("--frame", args->frame, "the truth has no poses: the frame's folder, with label.png")->type_name("DIR");
   add_flags(*sub, args->table(), args->given);
   add_flags(*sub, args->common);
   sub->footer(
-      "Examples:\n  unseen evaluate cuboids OUT --truth chair/view-0/truth.json\n"
+      "Examples:\n  unseen evaluate cuboids OUT\n  unseen evaluate cuboids OUT --truth chair/view-0/truth.json\n"
       "  unseen evaluate cuboids OUT --truth sizes.json --frame shelf_07 --hidden W:263,W:199");
   return {sub, [args] { return run(*args); }};
 }

@@ -18,13 +18,16 @@ constexpr double kStill = 0.05;   // share of its size that a standing box may m
 constexpr double kShell = 0.01;   // m around an initial box that is neither seen nor hidden: noise
 constexpr int kCells = 40;        // a side, where volumes are sampled
 
-void check(const Completion& result, const Truth& truth, const EvaluateOptions& options) {
+void check(const Truth& truth) {
   if (truth.cuboids.empty()) throw InputError("truth", "cuboids", "none", "at least one");
   for (const TrueCuboid& cuboid : truth.cuboids)
     if (!(cuboid.size.minCoeff() > 0)) throw InputError("truth", "size", "0 or less", "three lengths above 0");
   for (const TrueCuboid& cuboid : truth.cuboids)
     if (cuboid.box.has_value() != truth.cuboids.front().box.has_value())
       throw InputError("truth", "cuboids", "some with a pose, some without", "all or none with a pose");
+}
+
+void check(const Completion& result, const EvaluateOptions& options) {
   if (!(options.tolerance >= 0)) throw InputError("evaluate", "tolerance", std::to_string(options.tolerance), "0 or more");
   if (!(options.seconds > 0)) throw InputError("evaluate", "seconds", std::to_string(options.seconds), "above 0");
   for (const Cuboid& cuboid : result.cuboids)
@@ -73,7 +76,8 @@ RefereeScore ask_referee(const Completion& result, const EvaluateOptions& option
   for (std::size_t i = 0; i < moved.size(); ++i) {
     if (result.hangs(result.cuboids[i].id)) continue;
     ++score.bodies;
-    score.still += moved[i] < kStill;
+    if (moved[i] < kStill) ++score.still;
+    else score.moved.push_back(result.cuboids[i].id);
     score.farthest = std::max(score.farthest, moved[i]);
   }
   score.share = score.bodies > 0 ? static_cast<double>(score.still) / static_cast<double>(score.bodies) : 0.0;
@@ -138,12 +142,20 @@ HiddenPartScore score_hidden_part(const Completion& result, const Truth& truth, 
   return score;
 }
 
-Evaluation evaluate(const Completion& result, const Truth& given, const EvaluateOptions& options, Context& context) {
-  check(result, given, options);
-  const Truth truth = moved_to_result(given, result);
-  const Matching matching = match_cuboids(result, truth);
+Evaluation evaluate(const Completion& result, const EvaluateOptions& options, Context& context) {
+  check(result, options);
   Evaluation e;
   e.cuboids = result.cuboids.size();
+  if (options.referee && has_referee()) e.referee = ask_referee(result, options, context);
+  if (options.referee && !has_referee()) context.warn("built without MuJoCo: nothing says whether the result stands");
+  return e;
+}
+
+Evaluation evaluate(const Completion& result, const Truth& given, const EvaluateOptions& options, Context& context) {
+  check(given);
+  Evaluation e = evaluate(result, options, context);
+  const Truth truth = moved_to_result(given, result);
+  const Matching matching = match_cuboids(result, truth);
   e.true_cuboids = truth.cuboids.size();
   e.found = static_cast<std::size_t>(
       std::count_if(matching.pieces.begin(), matching.pieces.end(), [](const auto& pieces) { return !pieces.empty(); }));
@@ -154,9 +166,6 @@ Evaluation evaluate(const Completion& result, const Truth& given, const Evaluate
     e.pose = score_pose(result, truth, matching);
     e.hidden_part = score_hidden_part(result, truth, matching);
   }
-  context.check();
-  if (options.referee && has_referee()) e.referee = ask_referee(result, options, context);
-  if (options.referee && !has_referee()) context.warn("built without MuJoCo: nothing says whether the result stands");
   return e;
 }
 

@@ -3,6 +3,7 @@
 #include "unseen/report/cuboids_evaluation.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "report/json_write.h"
 #include "unseen/core/version.h"
@@ -46,21 +47,18 @@ std::string size_line(const std::string& name, const cuboids::SizeScore& s) {
 
 std::string evaluation_json(const CuboidsEvaluation& e) {
   const cuboids::Evaluation& s = e.scores;
-  Json json = {{"unseen", kVersion},
-               {"schema", 1},
-               {"capability", "cuboids"},
-               {"result", e.result_path},
-               {"truth", {{"path", e.truth_path}, {"family", e.family}}},
-               {"cuboids", s.cuboids},
-               {"true_cuboids", s.true_cuboids},
-               {"found", s.found},
-               {"contacts", {{"before", graph_of(s.contacts_before)}, {"after", graph_of(s.contacts_after)}}},
-               {"sizes", {{"all", sizes_of(s.sizes)}, {"seen", sizes_of(s.seen_sizes)}, {"hidden", sizes_of(s.hidden_sizes)}}},
-               {"change",
-                {{"dimensions", s.change.dimensions},
-                 {"error_before", number(s.change.before)},
-                 {"error_after", number(s.change.after)},
-                 {"change", number(s.change.change)}}}};
+  Json json = {{"unseen", kVersion}, {"schema", 1}, {"capability", "cuboids"}, {"result", e.result_path}, {"cuboids", s.cuboids}};
+  if (!e.truth_path.empty())
+    json.update({{"truth", {{"path", e.truth_path}, {"family", e.family}}},
+                 {"true_cuboids", s.true_cuboids},
+                 {"found", s.found},
+                 {"contacts", {{"before", graph_of(s.contacts_before)}, {"after", graph_of(s.contacts_after)}}},
+                 {"sizes", {{"all", sizes_of(s.sizes)}, {"seen", sizes_of(s.seen_sizes)}, {"hidden", sizes_of(s.hidden_sizes)}}},
+                 {"change",
+                  {{"dimensions", s.change.dimensions},
+                   {"error_before", number(s.change.before)},
+                   {"error_after", number(s.change.after)},
+                   {"change", number(s.change.change)}}}});
   if (s.pose)
     json["pose"] = {{"boxes", s.pose->boxes},
                     {"iou_before", number(s.pose->iou_before)},
@@ -75,17 +73,22 @@ std::string evaluation_json(const CuboidsEvaluation& e) {
     json["referee"] = {{"bodies", s.referee->bodies},
                        {"still", s.referee->still},
                        {"share", number(s.referee->share)},
-                       {"farthest", number(s.referee->farthest)}};
+                       {"farthest", number(s.referee->farthest)},
+                       {"moved", s.referee->moved}};
   return text_of(json);
 }
 
 std::string evaluation_table(const CuboidsEvaluation& e) {
   const cuboids::Evaluation& s = e.scores;
-  std::string text = line("true boxes", s.true_cuboids) + line("  found", s.found) + line("boxes of the result", s.cuboids);
-  text += line("contacts", "precision", "recall", "F1");
-  text += graph_line("  initial boxes", s.contacts_before) + graph_line("  result", s.contacts_after);
-  text += line("sizes right", "as fitted", "dropped", "fused", "result");
-  text += size_line("  all", s.sizes) + size_line("  seen", s.seen_sizes) + size_line("  hidden", s.hidden_sizes);
+  std::string text;
+  if (!e.truth_path.empty()) text += line("true boxes", s.true_cuboids) + line("  found", s.found);
+  text += line("boxes of the result", s.cuboids);
+  if (!e.truth_path.empty()) {
+    text += line("contacts", "precision", "recall", "F1");
+    text += graph_line("  initial boxes", s.contacts_before) + graph_line("  result", s.contacts_after);
+    text += line("sizes right", "as fitted", "dropped", "fused", "result");
+    text += size_line("  all", s.sizes) + size_line("  seen", s.seen_sizes) + size_line("  hidden", s.hidden_sizes);
+  }
   if (s.change.dimensions > 0)
     text += line("error of the sizes that moved", percent(s.change.before), "to", percent(s.change.after));
   if (s.pose) {
@@ -96,6 +99,7 @@ std::string evaluation_table(const CuboidsEvaluation& e) {
   if (s.hidden_part) text += line("overlap with the hidden part", percent(s.hidden_part->iou));
   if (s.referee)
     text += line("stand still in MuJoCo", fmt::format("{} of {}", s.referee->still, s.referee->bodies), percent(s.referee->share));
+  if (s.referee && !s.referee->moved.empty()) text += fmt::format("  do not: cuboid {}\n", fmt::join(s.referee->moved, ", "));
   return text;
 }
 

@@ -29,6 +29,24 @@ class Cuboids(CliTest):
     def result(self, out="out"):
         return json.loads((self.folder / out / "result.json").read_text())
 
+    def test_evaluates_without_a_truth_whether_it_stands(self):
+        self.solve()
+        run = self.unseen("evaluate", "cuboids", "out")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        evaluation = json.loads((self.folder / "out/evaluation.json").read_text())
+        self.assertEqual(evaluation["cuboids"], len(self.result()["cuboids"]))
+        self.assertNotIn("contacts", evaluation)
+        self.assertNotIn("contacts", run.stdout)
+        if "built without MuJoCo" in run.stderr:
+            self.skipTest("built without MuJoCo")
+        self.assertEqual(evaluation["referee"]["still"], evaluation["referee"]["bodies"])
+        self.assertEqual(evaluation["referee"]["moved"], [])
+        self.assertIn("stand still in MuJoCo", run.stdout)
+        for flags in (["--referee=false"], ["--frame", "frame.json"]):  # nothing to measure; what is the frame for?
+            run = self.unseen("evaluate", "cuboids", "out", *flags)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn("--truth", run.stderr)
+
     def test_writes_all_files_and_they_agree(self):
         self.solve()
         out = self.folder / "out"

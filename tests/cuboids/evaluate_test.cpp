@@ -222,6 +222,11 @@ TEST(EvaluateCuboids, TheRefereeSeesAFloatingBox) {
   const RefereeScore score = *evaluate(scene.result, scene.truth, {}, context).referee;
   EXPECT_EQ(score.bodies, 3u);
   EXPECT_EQ(score.still, 2u);
+  EXPECT_EQ(score.moved, std::vector<int>{scene.result.cuboids[1].id});
+  const Evaluation alone = evaluate(scene.result, {}, context);  // without a truth
+  EXPECT_EQ(alone.cuboids, 3u);
+  EXPECT_EQ(alone.true_cuboids, 0u);
+  EXPECT_EQ(alone.referee->still, 2u);
   scene.result.unsupported = {2};  // the result says so itself
   EXPECT_EQ(evaluate(scene.result, scene.truth, {}, context).referee->bodies, 2u);
 }

@@ -60,6 +60,7 @@ struct RefereeScore {
   std::size_t bodies = 0, still = 0;  ///< boxes that the result calls supported; those that moved less than 5 %
   double share = 0;
   double farthest = 0;  ///< share of its longest side that the worst of them moved
+  std::vector<int> moved;  ///< ids of those that did not stay
 };
 
 struct Evaluation {
@@ -78,6 +79,9 @@ struct Evaluation {
 /// points); several may stand for one, of which the best counts for pose, and all that are fixed to it for size.
 /// Warns where a measure had to be left out. Throws InputError for a truth without cuboids or an option out of range.
 Evaluation evaluate(const Completion& result, const Truth& truth, const EvaluateOptions& options, Context& context);
+
+/// What can be measured without a truth: whether the result stands in MuJoCo.
+Evaluation evaluate(const Completion& result, const EvaluateOptions& options, Context& context);
 
 /// m³, of the intersection of two boxes, exactly.
 double intersection_volume(const OrientedBox& a, const OrientedBox& b);

@@ -10,7 +10,7 @@ namespace unseen::report {
 
 /// What `unseen evaluate cuboids` measured, and against what.
 struct CuboidsEvaluation {
-  std::string result_path, truth_path;
+  std::string result_path, truth_path;  ///< the latter empty without a truth
   std::string family;  ///< of the generator, or the name of the frame
   cuboids::Evaluation scores;
 };
