@@ -122,6 +122,9 @@ TEST(TruthFiles, BrokenTruthNamesTheField) {
 TEST(TruthFiles, EvaluationHoldsWhatWasMeasured) {
   CuboidsEvaluation e;
   e.scores.contacts_after.f1 = 0.875;
+  EXPECT_EQ(evaluation_json(e).find("f1"), std::string::npos);  // no truth: no such score
+  EXPECT_EQ(evaluation_table(e).find("87.5 %"), std::string::npos);
+  e.truth_path = "truth.json";
   EXPECT_NE(evaluation_json(e).find("\"f1\": 0.875"), std::string::npos);
   EXPECT_EQ(evaluation_json(e).find("referee"), std::string::npos);
   EXPECT_NE(evaluation_table(e).find("87.5 %"), std::string::npos);
