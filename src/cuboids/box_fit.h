@@ -21,8 +21,8 @@ bool is_along(const Face& face, const Mat3& axes);
 /// Share of the points that lie on faces across one of the axes.
 double explained_share(std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes);
 
-/// The box with the given axes around what was seen: sides where a face was seen by the face's mean, the others where
-/// the points end (median over slices), at least a voxel thick away from the viewpoint.
+/// The box with the given axes around what was seen: sides where a face was seen by the face's mean, the others where the points end (nine of ten slices end
+/// before; in what leans, slices that lean too), at least a voxel thick (m) away from the viewpoint.
 OrientedBox bound(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
                   double voxel);
 

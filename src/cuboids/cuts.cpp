@@ -241,6 +241,25 @@ GroupedFaces faces_of(const Observation& seen, const Groups& groups) {
   return result;
 }
 
+struct Look {
+  Interior interior;
+  Piece whole;
+};
+
+/// What is within the hull of some points, along the axes of a box around them or as that leans: where less of it is free.
+Look look_along(const Observation& seen, const DepthView& view, const std::vector<int>& points, std::span<const int> face_of_point, std::span<const Face* const> faces) {
+  const auto along = [&](const Mat3& axes) {
+    Interior interior = look_into(seen, view, points, face_of_point, axes);
+    Piece whole = piece_of(seen, interior, points);
+    return Look{std::move(interior), std::move(whole)};
+  };
+  const Mat3 axes = box_axes(seen, view, points, faces, false), leaning = leaning_axes(seen, view, faces, axes);
+  Look look = along(axes);
+  if (leaning == axes) return look;
+  Look other = along(leaning);
+  return other.whole.hollow.share() < look.whole.hollow.share() ? other : look;
+}
+
 /// The faces that have most of their points among some.
 std::vector<const Face*> faces_within(const GroupedFaces& faces, std::span<const int> points) {
   std::map<int, std::size_t> counts;
@@ -286,12 +305,7 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
       std::vector<int> points = std::move(open.back());
       open.pop_back();
       const std::vector<const Face*> own = faces_within(faces, points);
-      Interior interior = look_into(seen, view, points, faces.faces.face_of_point, box_axes(seen, view, points, own, false));
-      Piece whole = piece_of(seen, interior, points);
-      if (const Mat3 leaning = leaning_axes(seen, view, own, interior.axes); leaning != interior.axes) {
-        Interior other = look_into(seen, view, points, faces.faces.face_of_point, leaning);
-        if (Piece same = piece_of(seen, other, points); same.hollow.share() < whole.hollow.share()) interior = std::move(other), whole = std::move(same);
-      }
+      const auto [interior, whole] = look_along(seen, view, points, faces.faces.face_of_point, own);
       const double hollow = has_steps(seen, own, points.size()) ? kHollowStep : kHollow;
       if (whole.hollow.share() <= hollow) {
         keep(std::move(points));

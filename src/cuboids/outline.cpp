@@ -84,9 +84,10 @@ double lean_along(const Observation& seen, const DepthView& view, std::span<cons
   const auto one = slope_of(free_ends(seen, view, *largest, Vec3::UnitZ(), out));
   const auto other = slope_of(free_ends(seen, view, *largest, Vec3::UnitZ(), -out));
   if (!one || !other) return 0.0;
-  const double lean = 0.5 * (one->angle - other->angle), error = 0.5 * std::hypot(one->error, other->error);
-  const bool alike = std::abs(one->angle + other->angle) < kAlikeErrors * 2.0 * error;
-  return alike && std::abs(lean) < kMostTurn && std::abs(lean) > std::max(kLeastLean, kLeanErrors * error) ? std::tan(lean) : 0.0;
+  const double lean = 0.5 * (one->angle - other->angle), error = std::hypot(one->error, other->error);
+  const bool alike = std::abs(one->angle + other->angle) < kAlikeErrors * error;
+  const bool clear = std::abs(lean) > std::max(kLeastLean, kLeanErrors * 0.5 * error) && std::abs(lean) < kMostTurn;
+  return alike && clear ? std::tan(lean) : 0.0;
 }
 
 }  // namespace

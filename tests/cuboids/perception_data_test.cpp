@@ -60,11 +60,17 @@ void shake(RgbdFrame& frame, std::uint64_t seed) {
 const std::map<std::string, std::size_t> kParts{{"mosd_learn7", 2},  {"mosd_learn18", 3}, {"mosd_learn19", 2}, {"mosd_learn20", 2},
                                                 {"mosd_learn22", 3}, {"mosd_learn29", 3}, {"mosd_test3", 2}};
 
-TEST(MeasuredFrames, OneBoxForEachVisiblePart) {
+class MeasuredFrames : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const auto& [name, count] : kParts)
+      if (!fs::exists(data / name / "depth.png")) GTEST_SKIP() << "the shared frame " << name << " is not there";
+  }
   const fs::path data = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/cuboids";
-  if (!fs::exists(data)) GTEST_SKIP() << "the shared frames are not there";
+};
+
+TEST_F(MeasuredFrames, OneBoxForEachVisiblePart) {
   for (const auto& [name, count] : kParts) {
-    if (!fs::exists(data / name / "depth.png")) GTEST_SKIP() << name << " is not there";
     const Perceived p = perceive(load(data / name));
     EXPECT_EQ(p.cuboids.size(), count) << name;
     for (const Cuboid& cuboid : p.cuboids) EXPECT_GT(cuboid.box.center.z() - cuboid.box.half_size.z(), -0.002) << name;
@@ -76,11 +82,8 @@ TEST(MeasuredFrames, OneBoxForEachVisiblePart) {
   }
 }
 
-TEST(MeasuredFrames, AsManyBoxesMirroredCroppedAndShaken) {
-  const fs::path data = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/cuboids";
-  if (!fs::exists(data)) GTEST_SKIP() << "the shared frames are not there";
+TEST_F(MeasuredFrames, AsManyBoxesMirroredCroppedAndShaken) {
   for (const auto& [name, count] : kParts) {
-    if (!fs::exists(data / name / "depth.png")) GTEST_SKIP() << name << " is not there";
     const auto count_of = [&](const auto& change) {
       RgbdFrame frame = load(data / name);
       change(frame);
