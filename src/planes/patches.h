@@ -58,8 +58,8 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
 CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context, const CellSets& uncut = {});
 CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,
                        CellSets regions, Context& context);
-/// Leaves out regions that the planes of larger ones nearby explain within the local scale: rims where two
-/// planes meet, not structures of their own.
+/// Leaves out regions that the planes of larger ones nearby explain within the local scale, or explain in good part and better than the
+/// region's own plane: rims where two planes meet, not structures of their own.
 CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space, CellSets regions,
                    Context& context);
 /// Leaves out single voxels that lie farther from their region's plane than its noise explains: outliers pull small regions round.

@@ -196,6 +196,29 @@ TEST(DropRims, RimsGoAndStructuresStay) {
   EXPECT_TRUE(std::find(kept.begin(), kept.end(), bevel) == kept.end());
 }
 
+/// A ridge is no plane of its own though something stands on a third of it; a ramp is one though most of it lies within the scale over the floor.
+TEST(DropRims, WhatOthersExplainBetterGoes) {
+  PointCloud cloud;
+  Random random(4);
+  test::add_rectangle(cloud, {0, 0, 0}, {-0.7, 0, -0.7}, {0, 1, 0}, 0.02, 0.0, random);
+  test::add_rectangle(cloud, {0, 0, 0}, {0.7, 0, -0.7}, {0, 1, 0}, 0.02, 0.0, random);
+  test::add_rectangle(cloud, {-0.05, 0.7, 0.15}, {0.1, 0, 0}, {0, 0.3, 0}, 0.015, 0.0, random);
+  test::add_rectangle(cloud, {1, 0, -1}, {2, 0, 0}, {0, 1, 0}, 0.02, 0.0, random);
+  test::add_rectangle(cloud, {1.5, 0.5, -1}, {1, 0, 0.16}, {0, 0.1, 0}, 0.02, 0.0, random);
+  Scene scene(cloud);
+  CellSets sets(5);  // two roofs, the ridge, the floor, the ramp
+  for (std::size_t i = 0; i < scene.grid.size(); ++i) {
+    const Vec3& p = scene.grid.moments[i].mean;
+    const bool ramp = p.x() > 1.6 && p.z() > -0.99;
+    sets[p.x() > 0.8 ? (ramp ? 4 : 3) : p.z() > -0.06 ? 2 : p.x() < 0 ? 0 : 1].push_back(static_cast<int>(i));
+  }
+  const std::vector<int> ridge = sets[2], ramp = sets[4];
+  const CellSets kept = drop_rims(scene.grid, scene.cells, scene.space, sets, scene.context);
+  EXPECT_EQ(kept.size(), 4u);
+  EXPECT_TRUE(std::find(kept.begin(), kept.end(), ridge) == kept.end());
+  EXPECT_TRUE(std::find(kept.begin(), kept.end(), ramp) != kept.end());
+}
+
 /// Single points on either side of a surface go; its own noise and what stands on it stay.
 TEST(DropStrays, OutliersGoAndNoiseStays) {
   PointCloud cloud;
