@@ -77,7 +77,16 @@ std::string support_text(const RefereeScene& scene, std::size_t support) {
                      quaternion_text(slab.axes));
 }
 
-/// Bodies keep the world's axes and origin, so that a geom's place in its body is its place in the world at the start.
+/// Where the mass of a body's boxes has its centre. A body that MuJoCo turns about another place gains energy with every step, and may fly apart.
+Vec3 centre_of_mass(const RefereeScene& scene, const std::vector<int>& body, int of) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i)
+    if (body[i] == of) sum += scene.masses[i] * scene.boxes[i].center, mass += scene.masses[i];
+  return sum / mass;
+}
+
+/// Bodies keep the world's axes, each about its own centre of mass.
 std::string model_text(const RefereeScene& scene, const std::vector<int>& body, const Vec3& down) {
   std::string text;
   auto out = std::back_inserter(text);
@@ -88,18 +97,19 @@ std::string model_text(const RefereeScene& scene, const std::vector<int>& body, 
                  "gravity=\"{}\"/><default><geom friction=\"{} 0.005 0.0001\" solref=\"0.004 1\"/></default><worldbody>",
                  points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kStep, vector_text(kGravity * down), scene.friction);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) text += support_text(scene, i);
-  const auto add_boxes = [&](int of) {
+  const auto add_boxes = [&](int of, const Vec3& origin) {
     for (std::size_t i = 0; i < scene.boxes.size(); ++i)
       if (body[i] == of)
         fmt::format_to(out, "<geom name=\"box{}\" type=\"box\" size=\"{}\" pos=\"{}\" quat=\"{}\" mass=\"{}\"/>", i,
-                       vector_text(half_size_for_mujoco(scene.boxes[i])), vector_text(scene.boxes[i].center),
+                       vector_text(half_size_for_mujoco(scene.boxes[i])), vector_text(scene.boxes[i].center - origin),
                        quaternion_text(scene.boxes[i].axes), scene.masses[i]);
   };
-  add_boxes(-1);
+  add_boxes(-1, Vec3::Zero());
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
     if (body[i] != static_cast<int>(i)) continue;
-    text += "<body><freejoint/>";
-    add_boxes(body[i]);
+    const Vec3 centre = centre_of_mass(scene, body, body[i]);
+    fmt::format_to(out, "<body pos=\"{}\"><freejoint/>", vector_text(centre));
+    add_boxes(body[i], centre);
     text += "</body>";
   }
   return text + "</worldbody></mujoco>";

@@ -130,5 +130,23 @@ TEST(Referee, WithSomethingBelowTheGroundItEndsToo) {
   EXPECT_LT(farthest(scene, kDown, 0.3), 0.01);
 }
 
+/// A small box that tumbles off the edge of a large one does the same wherever the scene lies, and nothing else moves.
+TEST(Referee, ATumblingBoxFallsAlikeEverywhere) {
+  if (!has_referee()) GTEST_SKIP() << "built without MuJoCo";
+  const auto moves = [](const Vec3& place) {
+    RefereeScene scene;
+    scene.supports = {{0, SupportKind::ground, {Vec3::UnitZ(), 0.0}, {}}};
+    scene.boxes = {{place + Vec3(0, 0, 0.25), Mat3::Identity(), {0.1, 0.1, 0.25}},
+                   {place + Vec3(0.103, 0, 0.51), Mat3::Identity(), {0.004, 0.0025, 0.01}}};
+    scene.masses = {1.0, 2e-4};
+    Context context;
+    return simulate(scene, kDown, 0.35, context);
+  };
+  const auto here = moves(Vec3::Zero()), there = moves({3, -2, 0});
+  EXPECT_GT(here[1], 1);  // of its length
+  EXPECT_NEAR(there[1], here[1], 0.05 * here[1]);
+  EXPECT_LT(std::max(here[0], there[0]), 0.001);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids
