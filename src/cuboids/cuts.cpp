@@ -28,6 +28,7 @@ constexpr double kBeforeFaceSigmas = 3.0;
 constexpr double kLeastSaving = 1.0 / 3.0;  // of the free space within the hull
 constexpr double kPrice = 0.02;             // of a hull: free space that one more piece must save
 constexpr double kFlat = 0.9;               // of the points, on sides of boxes
+constexpr double kNearlyFlat = 0.8, kLessRest = 1.0 / 3.0;  // the same, where so much less is on none than before the cut: round spines and edges
 constexpr int kFewestFlatPoints = 24;
 constexpr int kFirstCuts = 16, kFinerCuts = 4;
 constexpr std::size_t kTried = 4;  // of the best cuts of clumps, until one parts the points as well
@@ -70,12 +71,13 @@ std::vector<Piece> cut_at(const Observation& seen, const Interior& interior, con
 }
 
 /// Parts the faces that lie along the axes from those that do not, as of a plank that leans on a crate. A face along the axes that borders mostly on
-/// ones that are not is of theirs: the narrow side of the plank. What is of no face goes with the nearest.
+/// ones that are not is of theirs: the narrow side of the plank. What is of no face, or of a sliver along an edge, goes with the nearest.
 std::vector<Piece> cut_by_axes(const Observation& seen, const Interior& interior, const std::vector<Face>& faces, const std::vector<int>& points) {
   std::vector<signed char> side(seen.points.size(), 0);
   std::vector<int> owner(seen.points.size(), -2), queue;  // −2 = not of the points
   for (const int i : points) {
-    owner[i] = interior.face_of_point[i];
+    const int face = interior.face_of_point[i];
+    owner[i] = face >= 0 && static_cast<double>(faces[face].points.size()) >= fewest_points(points.size()) ? face : -1;
     if (owner[i] >= 0) queue.push_back(i);
   }
   for (std::size_t at = 0; at < queue.size(); ++at)
@@ -271,8 +273,8 @@ std::vector<const Face*> faces_within(const GroupedFaces& faces, std::span<const
   return within;
 }
 
-/// Whether nearly all of what was seen of the pieces are sides of boxes.
-bool are_boxes(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces) {
+/// Whether nearly all of what was seen of the pieces are sides of boxes, or most of it and far more than of the whole, of which `explained_whole` are.
+bool are_boxes(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, double explained_whole) {
   const GroupedFaces faces = faces_of(seen, pieces);
   double all = 0, explained = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -280,7 +282,8 @@ bool are_boxes(const Observation& seen, const DepthView& view, const std::vector
     all += count;
     explained += count * explained_share(pieces[k].points, faces.of_group[k], box_axes(seen, view, pieces[k].points, faces.of_group[k], false));
   }
-  return explained >= kFlat * all;
+  const double share = explained / all;
+  return share >= kFlat || (share >= kNearlyFlat && 1.0 - share <= kLessRest * (1.0 - explained_whole));
 }
 
 }  // namespace
@@ -311,13 +314,14 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
         keep(std::move(points));
         continue;
       }
+      const double explained = explained_share(points, own, interior.axes);
       std::vector<Piece> pieces = cut_by_axes(seen, interior, faces.faces.faces, points);
-      if (saves(whole, pieces) && are_boxes(seen, view, pieces)) {
+      if (saves(whole, pieces) && are_boxes(seen, view, pieces, explained)) {
         for (Piece& piece : pieces) open.push_back(std::move(piece.points));
         continue;
       }
       pieces = cut_apart(seen, interior, planes_before(seen, own, points.size()), whole, hollow, context);
-      if (pieces.size() < 2 || !are_boxes(seen, view, pieces)) keep(std::move(points));
+      if (pieces.size() < 2 || !are_boxes(seen, view, pieces, explained)) keep(std::move(points));
       else
         for (Piece& piece : pieces) keep(std::move(piece.points));
     }
