@@ -15,7 +15,7 @@ namespace {
 
 const double kUprightSine = std::sin(radians(15.0));
 const double kAlignedCosine = std::cos(radians(8.0));
-const double kLeastLean = radians(2.0), kMostLean = radians(15.0);
+const double kLeastSlant = radians(2.0), kMostLean = radians(15.0);
 const double kFaceCosine = std::cos(radians(20.0));
 constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
 constexpr double kLeanSigmas = 4.0;         // standard errors: a largest face that leans by less is level …
@@ -157,7 +157,7 @@ std::optional<Vec3> leans_from(const Observation& seen, const Face& face, double
   const Vec3 level = flat ? Vec3(0, 0, n.z() < 0.0 ? -1.0 : 1.0) : Vec3(n.x(), n.y(), 0.0).normalized();
   const double lean = line_angle(level, n);
   const DirectionError error = direction_error(seen, face, (level - level.dot(n) * n).normalized());
-  if (lean < kLeastLean || lean < sigmas * error.all() || error.noise > kVagueLean) return std::nullopt;
+  if (lean < kLeastSlant || lean < sigmas * error.all() || error.noise > kVagueLean) return std::nullopt;
   return level;
 }
 

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <numeric>
 
-#include "cuboids/faces.h"
+#include "cuboids/join_surfaces.h"
 #include "cuboids/observation.h"
 #include "cuboids/stack_levels.h"
 #include "cuboids/strokes.h"
@@ -16,108 +15,12 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr int kFewestFacePoints = 30;
 constexpr std::size_t kFewestObjectPoints = 80;     // of an object
 constexpr double kSmallestObject = 0.003;        // of the points of all objects, where nobody says what an object is
 constexpr std::size_t kFewPoints = 500;         // so few may be a strip along an edge
 constexpr double kStrip = 8.0;                 // widths, in spacing
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
-constexpr double kCurved = 30.0;              // degrees that neighbouring pieces of a hollow surface may differ by
-constexpr std::size_t kFewestBorderLinks = 4;
-constexpr double kSliver = 6.0;                // widths, in noise or spacing
 constexpr double kOutside = 0.02;             // m beyond the outline of the ground, where something else carries
-
-/// Where two faces meet.
-struct Border {
-  std::size_t links = 0;
-  Vec3 place = Vec3::Zero();  ///< sum over links
-  bool concave = false, joins = false;
-};
-
-/// Strips as narrow as what a sensor blurs along an edge say nothing of their own: what is next to them gets them.
-void leave_out_slivers(Faces& faces, const PointGraph& graph) {
-  for (const Face& face : faces.faces) {
-    const int i = face.points.front();
-    const double blur = std::max(graph.sigma[i], graph.spacing[i]);
-    if (face.width * std::sqrt(12.0) > kSliver * blur) continue;
-    for (const int j : face.points) faces.face_of_point[j] = -1;
-  }
-}
-
-/// Every point of the groups that some face can be reached from gets the nearest (in links) face.
-std::vector<int> spread(const Faces& faces, const PointGraph& graph, std::span<const int> group) {
-  std::vector<int> owner = faces.face_of_point, queue;
-  for (int i = 0; i < static_cast<int>(owner.size()); ++i)
-    if (owner[i] >= 0) queue.push_back(i);
-  for (std::size_t at = 0; at < queue.size(); ++at)
-    for (const int j : graph.neighbours(queue[at]))
-      if (owner[j] < 0 && group[j] >= 0 && group[j] == group[queue[at]]) {
-        owner[j] = owner[queue[at]];
-        queue.push_back(j);
-      }
-  return owner;
-}
-
-void judge(Border& border, const Face& a, const Face& b, double sigma, double spacing) {
-  const Vec3 place = border.place / static_cast<double>(border.links);
-  const double angle = degrees(std::acos(std::clamp(a.plane.normal.dot(b.plane.normal), -1.0, 1.0)));
-  const double rise = a.plane.normal.dot((b.center - place).normalized()) + b.plane.normal.dot((a.center - place).normalized());
-  // Edges are measured round.
-  const double off = std::max(std::abs(a.plane.signed_distance(place)), std::abs(b.plane.signed_distance(place)));
-  const bool meets = off < 5.0 * sigma + 1.5 * spacing;
-  border.concave = rise > 0.0 && angle > kCurved;
-  border.joins = !border.concave && meets && border.links >= kFewestBorderLinks;
-}
-
-/// Faces of one object: joined where they meet convexly or smoothly, never across a concave edge nor from one piece of a stack to another.
-std::vector<int> join_faces(const Faces& faces, const std::vector<int>& owner, const std::vector<int>& piece_of_point, const Observation& seen) {
-  std::map<std::pair<int, int>, Border> borders;
-  for (int i = 0; i < static_cast<int>(owner.size()); ++i)
-    for (const int j : seen.graph.neighbours(i)) {
-      if (j < i || owner[i] < 0 || owner[j] < 0 || owner[i] == owner[j]) continue;
-      Border& border = borders[std::minmax(owner[i], owner[j])];
-      ++border.links;
-      border.place += 0.5 * (seen.points[i] + seen.points[j]);
-    }
-  std::vector<std::pair<std::size_t, std::pair<int, int>>> order;
-  for (auto& [pair, border] : borders) {
-    const Face &a = faces.faces[pair.first], &b = faces.faces[pair.second];
-    judge(border, a, b, seen.graph.sigma[a.points.front()], seen.graph.spacing[a.points.front()]);
-    if (border.joins) order.emplace_back(border.links, pair);
-  }
-  std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<int> object(faces.faces.size());
-  std::iota(object.begin(), object.end(), 0);
-  std::vector<int> piece_of_object;  // 0 = of none
-  for (const Face& face : faces.faces) piece_of_object.push_back(piece_of_point[face.points.front()]);
-  for (const auto& [links, pair] : order) {
-    const int to = object[pair.first], from = object[pair.second];
-    if (to == from) continue;
-    const int piece = piece_of_object[to], other = piece_of_object[from];
-    if (piece > 0 && other > 0 && piece != other) continue;
-    const bool apart = std::any_of(borders.begin(), borders.end(), [&](const auto& entry) {
-      const int p = object[entry.first.first], q = object[entry.first.second];
-      return entry.second.concave && entry.second.links >= kFewestBorderLinks && ((p == to && q == from) || (p == from && q == to));
-    });
-    if (apart) continue;
-    std::replace(object.begin(), object.end(), from, to);
-    piece_of_object[to] = std::max(piece, other);
-  }
-  return object;
-}
-
-/// The surfaces themselves say where one object ends and the next begins: numbers of objects of the points of group 0, −1 = none.
-std::vector<int> join_surfaces(const Observation& seen, const std::vector<int>& group, const std::vector<int>& piece_of_point) {
-  std::vector<int> within(group.size(), -1), object(group.size(), -1);
-  for (std::size_t i = 0; i < group.size(); ++i)
-    if (group[i] == 0) within[i] = piece_of_point[i];
-  Faces faces = grow_faces(seen.points, seen.graph, within, seen.T_world_camera.translation, kFewestFacePoints);
-  leave_out_slivers(faces, seen.graph);
-  const std::vector<int> owner = spread(faces, seen.graph, within), joined = join_faces(faces, owner, piece_of_point, seen);
-  for (std::size_t i = 0; i < object.size(); ++i)
-    if (owner[i] >= 0) object[i] = joined[owner[i]];
-  return object;
-}
 
 /// Points of equal non-negative group that links connect.
 std::vector<std::vector<int>> components(const Observation& seen, const std::vector<int>& group) {

@@ -45,7 +45,7 @@ struct Problem {
   std::vector<std::array<int, 2>> joints;  ///< pairs of bodies that hold an object's pieces together
   std::vector<Hypothesis> hypotheses;
   double friction = 0.7;
-  double stable_residual = 0.05;
+  double stable_residual = 0.02;
   double push = 0.1;  ///< g: horizontal acceleration, from any side, that an arrangement must bear
 
   int supports_count() const { return static_cast<int>(supports.size()); }

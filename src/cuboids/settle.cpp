@@ -92,7 +92,7 @@ void settle(const Problem& problem, const std::vector<char>& held, Arrangement& 
       Arrangement closed = now;
       close_contacts(exact, touching_pairs(exact, now), closed);
       if (collapse_of(structure_of(exact, closed, touching_pairs(exact, closed), stays)).empty()) now = std::move(closed);
-      if (stands(problem, now, held)) arrangement = std::move(now);
+      if (stands(problem, now, held) || !stands(problem, arrangement, held)) arrangement = std::move(now);
       return;
     }
     const double time = std::min(time_of_small_moves(problem, now, s.group, velocities),

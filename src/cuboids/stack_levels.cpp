@@ -12,7 +12,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr std::size_t kCoarse = 400, kFine = 2000;  // samples of a part: to see whether it is a stack, and to place its levels
-constexpr std::size_t kFewestSamples = 24;         // on either side of a level …
+constexpr std::size_t kFewestLevelSamples = 24;         // on either side of a level …
 constexpr double kSmallestShare = 0.06;            // … and of the samples that are cut
 constexpr double kLeastHeight = 0.02, kLeastHeightSigmas = 10.0;  // m, of what stands on or under another
 constexpr int kFirstLevels = 20, kFinerLevels = 4, kPlaceRounds = 3;
@@ -37,7 +37,7 @@ struct Level {
 /// The level that leaves least; infinitely much if there is none.
 Level best_level(std::span<const Sample> samples) {
   const double low = samples.front().p.z(), high = samples.back().p.z();
-  const std::size_t fewest = std::max(kFewestSamples, static_cast<std::size_t>(kSmallestShare * static_cast<double>(samples.size())));
+  const std::size_t fewest = std::max(kFewestLevelSamples, static_cast<std::size_t>(kSmallestShare * static_cast<double>(samples.size())));
   const double height = std::max(kLeastHeight, kLeastHeightSigmas * samples[samples.size() / 2].sigma);
   Level best;
   for (int k = 1; k < kFirstLevels; ++k) {
@@ -53,7 +53,7 @@ Level best_level(std::span<const Sample> samples) {
 /// Levels that cut some samples into boxes, from below; none where one box does nearly as well.
 std::vector<double> split(std::span<const Sample> samples) {
   const double count = static_cast<double>(samples.size()), one = unexplained(samples);
-  if (samples.size() < 2 * kFewestSamples || one < kLeastExplained * count) return {};
+  if (samples.size() < 2 * kFewestLevelSamples || one < kLeastExplained * count) return {};
   const Level level = best_level(samples);
   if (one - level.left < std::max(kLeastExplained * count, kLeastShare * one)) return {};
   std::vector<double> levels = split(between(samples, -kFar, level.z));
@@ -76,7 +76,7 @@ void place(std::vector<double>& levels, std::span<const Sample> samples) {
         const double z = middle + step * move;
         if (z <= low || z >= high) continue;
         const auto below = between(samples, low, z), above = between(samples, z, high);
-        if (std::min(below.size(), above.size()) < kFewestSamples) continue;
+        if (std::min(below.size(), above.size()) < kFewestLevelSamples) continue;
         if (const double left = unexplained(below) + unexplained(above); left < least) least = left, levels[k] = z;
       }
     }

@@ -17,7 +17,7 @@ struct Options {
   std::optional<double> noise;     ///< σ of the depth at 1 m, m; grows with the square of the depth; unset = measured, at most 0.0015
   std::optional<double> gap;       ///< m, between parts of one object; unset = from noise and pixel spacing
   double fill = 0.7;               ///< share of filled voxels in a slab
-  double stable_residual = 0.05;   ///< an arrangement with a smaller residual stands
+  double stable_residual = 0.02;   ///< an arrangement with a smaller residual stands
   double push = 0.1;               ///< g: what stands must bear this horizontal acceleration too; 0 = balance alone
   bool image_edges = true;         ///< pull visible box edges to edges of the colour image
   int arrangements = 3000;         ///< looked at by the search for each part of the scene (fewer for parts of more than 8 boxes)
