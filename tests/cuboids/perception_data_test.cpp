@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
@@ -92,6 +93,27 @@ TEST_F(MeasuredFrames, AsManyBoxesMirroredCroppedAndShaken) {
     EXPECT_EQ(count_of(mirror), count) << name << " mirrored";
     EXPECT_EQ(count_of(crop), count) << name << " cropped";
     for (const std::uint64_t seed : {1, 2, 3}) EXPECT_EQ(count_of([seed](RgbdFrame& frame) { shake(frame, seed); }), count) << name << " shaken " << seed;
+  }
+}
+
+/// A thick book with a round back lies on a flat one and on the table, a box leans on both, and a carton stands on it.
+TEST_F(MeasuredFrames, ABookThatLeansOnAnotherIsItsOwn) {
+  const fs::path folder = data / "mosd_test64";
+  if (!fs::exists(folder / "depth.png")) GTEST_SKIP() << "the shared frame mosd_test64 is not there";
+  const std::vector<std::function<void(RgbdFrame&)>> changes = {[](RgbdFrame&) {}, mirror, [](RgbdFrame& frame) { shake(frame, 1); }, [](RgbdFrame& frame) { mirror(frame), shake(frame, 2); }};
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    RgbdFrame frame = load(folder);
+    changes[k](frame);
+    const double side = k % 2 == 0 ? 1.0 : -1.0;
+    const std::vector<Cuboid> fitted = perceive(frame).fitted;
+    const OrientedBox &flat = nearest(fitted, {-0.1 * side, 0.7, 0.02}).box, &leaning = nearest(fitted, {0.016 * side, 0.68, 0.05}).box;
+    EXPECT_GT(flat.axes.cwiseAbs().row(2).maxCoeff(), std::cos(radians(3.0))) << k;
+    EXPECT_NEAR(degrees(std::acos(leaning.axes.cwiseAbs().row(2).maxCoeff())), 14.5, 2.0) << k;
+    std::vector<double> sizes = {2.0 * leaning.half_size.x(), 2.0 * leaning.half_size.y(), 2.0 * leaning.half_size.z()};
+    std::sort(sizes.begin(), sizes.end());
+    EXPECT_NEAR(sizes[2], 0.235, 0.01) << k;
+    EXPECT_NEAR(sizes[1], 0.155, 0.01) << k;
+    EXPECT_NEAR(sizes[0], 0.035, 0.015) << k;
   }
 }
 
