@@ -108,6 +108,8 @@ TEST_F(MeasuredFrames, ABookThatLeansOnAnotherIsItsOwn) {
     const std::vector<Cuboid> fitted = perceive(frame).fitted;
     const OrientedBox &flat = nearest(fitted, {-0.1 * side, 0.7, 0.02}).box, &leaning = nearest(fitted, {0.016 * side, 0.68, 0.05}).box;
     EXPECT_GT(flat.axes.cwiseAbs().row(2).maxCoeff(), std::cos(radians(3.0))) << k;
+    EXPECT_NEAR(flat.center.z(), 0.018, 0.004) << k;
+    EXPECT_NEAR(flat.half_size.minCoeff(), 0.018, 0.004) << k;
     EXPECT_NEAR(degrees(std::acos(leaning.axes.cwiseAbs().row(2).maxCoeff())), 14.5, 2.0) << k;
     std::vector<double> sizes = {2.0 * leaning.half_size.x(), 2.0 * leaning.half_size.y(), 2.0 * leaning.half_size.z()};
     std::sort(sizes.begin(), sizes.end());
