@@ -17,7 +17,7 @@ namespace {
 constexpr int kFewestFacePoints = 30;
 constexpr double kSliver = 6.0;     // widths, in noise or spacing
 constexpr double kCurved = 30.0;    // degrees that neighbouring pieces of a hollow surface may differ by
-constexpr double kUndecided = 0.3;  // rise of whole faces that says too little of their edge
+constexpr double kUndecided = 0.3;  // fall of whole faces that says too little of their edge
 constexpr int kNearLinks = 12;      // from an edge
 constexpr std::size_t kFewestBorderLinks = 4;
 
@@ -76,8 +76,8 @@ double rise_of(const Observation& seen, const Faces& faces, const std::pair<int,
   const auto rise = [&](const Vec3& middle_a, const Vec3& middle_b) {
     return a.plane.normal.dot((middle_b - border.place).normalized()) + b.plane.normal.dot((middle_a - border.place).normalized());
   };
-  // Far from the edge a large face may lie on the other side of the other's plane than beside it.
-  if (const double whole = rise(a.center, b.center); std::abs(whole) >= kUndecided) return whole;
+  // Far from the edge a large face may lie behind the other's plane, and beside it in front.
+  if (const double whole = rise(a.center, b.center); whole > 0.0 || whole < -kUndecided) return whole;
   return rise(middle_near(seen, faces, pair.first, border.ends[0]), middle_near(seen, faces, pair.second, border.ends[1]));
 }
 
