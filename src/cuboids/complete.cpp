@@ -103,6 +103,12 @@ bool stands(const Problem& problem, const Arrangement& arrangement, const std::v
   return balance(s.bodies, s.contacts).residual < problem.stable_residual;
 }
 
+bool bears_pushes(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held) {
+  const Structure s = structure_of(problem, arrangement, touching_pairs(problem, arrangement), held);
+  const std::vector<Vec3> loads = load_cases(problem.push);
+  return std::all_of(loads.begin(), loads.end(), [&](const Vec3& load) { return balance(s.bodies, s.contacts, load, {}).residual < problem.stable_residual; });
+}
+
 void complete_boxes(const RgbdFrame& frame, const Options& options, Context& context, Completion& result) {
   Summary& summary = result.summary;
   result.depth_noise = depth_noise(frame, options);

@@ -58,6 +58,9 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
 /// Whether an arrangement is at rest, the `held` bodies (a mark a body) being firm.
 bool stands(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held);
 
+/// Whether it stands under all pushes too.
+bool bears_pushes(const Problem& problem, const Arrangement& arrangement, const std::vector<char>& held);
+
 /// The cuboids (a mark each) that the picture cuts off.
 std::vector<char> cut_off(const DepthView& view, const std::vector<Cuboid>& cuboids);
 

@@ -102,26 +102,30 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context) {
   std::vector<Link> links = links_of(problem, view, arrangement, hanging(problem, arrangement, held));
   int trials = 0;
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Link& link : links) {
-      context.check();
-      const std::vector<char> hangs = hanging(problem, arrangement, held);
-      const Structure now = structure_of(problem, arrangement, {}, held);
-      if ((!hangs[link.a] && !hangs[link.b]) || now.group[link.a] == now.group[link.b]) continue;
-      Arrangement linked = arrangement;
-      linked.fix({link.a, link.b});
-      std::vector<char> freed = held;
-      if (!hangs[link.a] || !hangs[link.b])  // the one that stands is to carry the other
-        for (int i = problem.supports_count(); i < problem.bodies(); ++i)
-          if (now.group[i] == now.group[hangs[link.a] ? link.a : link.b]) freed[i] = 0;
-      if (++trials > kTrials) return;
-      if (!stands(problem, linked, freed)) continue;
-      arrangement = std::move(linked);
-      held = std::move(freed);
-      changed = true;
+  const auto link_all = [&](const auto& may_be) {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Link& link : links) {
+        context.check();
+        const std::vector<char> hangs = hanging(problem, arrangement, held);
+        const Structure now = structure_of(problem, arrangement, {}, held);
+        if ((!hangs[link.a] && !hangs[link.b]) || now.group[link.a] == now.group[link.b]) continue;
+        Arrangement linked = arrangement;
+        linked.fix({link.a, link.b});
+        std::vector<char> freed = held;
+        if (!hangs[link.a] || !hangs[link.b])  // the one that stands is to carry the other
+          for (int i = problem.supports_count(); i < problem.bodies(); ++i)
+            if (now.group[i] == now.group[hangs[link.a] ? link.a : link.b]) freed[i] = 0;
+        if (++trials > kTrials) return;
+        if (!may_be(problem, linked, freed)) continue;
+        arrangement = std::move(linked);
+        held = std::move(freed);
+        changed = true;
+      }
     }
-  }
+  };
+  link_all(bears_pushes);
+  link_all(stands);  // rather than that it hangs in the air
 }
 
 }  // namespace unseen::cuboids
