@@ -121,6 +121,23 @@ TEST(Links, AreNotToWhatWouldFallOver) {
   EXPECT_EQ(held[2], 1);
 }
 
+TEST(Links, AreRatherToWhatThenBearsThePushesToo) {
+  // A box 2 cm beside a slim post, which carries it at rest, and 4 cm beside a stout one.
+  const OrientedBox slim = box({0, 0, 0.5}, {0.15, 0.15, 1.0}), hung = box({0.195, 0, 0.8}, {0.2, 0.2, 0.2}), stout = box({0.585, 0, 0.5}, {0.5, 0.5, 1.0});
+  const auto linked = [](const std::vector<OrientedBox>& boxes) {
+    const Problem problem = problem_of(boxes);
+    Arrangement a = arrange(problem, {});
+    std::vector<char> held = {0, 0, 1, 0};
+    held.resize(1 + boxes.size());
+    Context context;
+    link_hanging(problem, view_of(1.0f), held, a, context);
+    EXPECT_EQ(held[2], 0);
+    return a.fixed;
+  };
+  EXPECT_EQ(linked({slim, hung, stout}), (std::vector<std::array<int, 2>>{{2, 3}}));
+  EXPECT_EQ(linked({slim, hung}), (std::vector<std::array<int, 2>>{{1, 2}}));
+}
+
 TEST(Fuse, LeavesApartWhatIsOnDifferentLevelsOfAStack) {
   // Three boxes in line whose gaps nobody could look into; the first is of no stack.
   for (const bool apart : {false, true}) {
