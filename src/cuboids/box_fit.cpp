@@ -170,12 +170,24 @@ Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const
 }
 
 /// Axes of the two largest orthogonal faces, or of the largest and the rectangle around its points.
+constexpr double kTurningArea = 0.1;  // of the largest face
+const double kStandingSine = std::sin(radians(30.0)), kTurnedSine = std::sin(radians(5.0));
+
 Mat3 free_axes(const Observation& seen, std::vector<const Face*> faces) {
   std::stable_sort(faces.begin(), faces.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
   const Vec3 primary = faces.front()->plane.normal;
+  // What stands or leans is hardly turned within its plane: that takes more than a small face to tell.
+  const Vec3 level = Vec3::UnitZ().cross(primary);
+  const auto is_turned = [&](const Face& face) {
+    const double along = std::abs(level.normalized().dot(face.plane.normal));
+    return std::min(along, std::sqrt(1.0 - std::min(along * along, 1.0))) > kTurnedSine;
+  };
   Vec3 secondary = Vec3::Zero();
-  for (std::size_t f = 1; f < faces.size() && secondary.isZero(); ++f)
-    if (std::abs(faces[f]->plane.normal.dot(primary)) < kUprightSine && faces[f]->width > 0.004) secondary = faces[f]->plane.normal;
+  for (std::size_t f = 1; f < faces.size() && secondary.isZero(); ++f) {
+    const Face& face = *faces[f];
+    if (std::abs(face.plane.normal.dot(primary)) >= kUprightSine || face.width <= 0.004) continue;
+    secondary = level.norm() > kStandingSine && face.area < kTurningArea * faces.front()->area && is_turned(face) ? level : face.plane.normal;
+  }
   if (secondary.isZero()) {
     const Vec3 u = any_orthogonal(primary), v = primary.cross(u);
     std::vector<Vec2> flat;
