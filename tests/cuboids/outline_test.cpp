@@ -39,5 +39,20 @@ TEST(Outline, OfWhatIsWiderAboveDoesNotLean) {  // one end upright, the other 7 
   EXPECT_NEAR(box.center.x() - box.half_size.x(), -0.06, 0.004);
 }
 
+/// Few points of its narrow side are seen, and their plane is some degrees off.
+TEST(Boxes, ABoardThatLeansHasLevelEdges) {
+  for (const double lean : {20.0, 35.0})
+    for (const int seed : {1, 2, 3, 4}) {
+      Scene scene;
+      OrientedBox board = upright(0, 0.9, 0, {0.36, 0.012, 0.3}, -25);
+      board.axes = board.axes * Eigen::AngleAxisd(-radians(lean), Vec3::UnitX()).toRotationMatrix();
+      board.center.z() = board.axes.row(2).cwiseAbs() * board.half_size;
+      scene.boxes = {board};
+      const Perceived p = perceive(render(scene, seed));
+      ASSERT_EQ(p.fitted.size(), 1u);
+      EXPECT_LT(degrees(std::asin(p.fitted[0].box.axes.row(2).cwiseAbs().minCoeff())), 0.6) << lean << " " << seed;
+    }
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test
