@@ -16,6 +16,8 @@ namespace {
 const double kUprightSine = std::sin(radians(15.0));
 const double kAlignedCosine = std::cos(radians(8.0));
 const double kLeastSlant = radians(2.0), kMostLean = radians(15.0);
+constexpr double kTurningArea = 0.1;  // of the largest face, that tells how it is turned within its plane …
+const double kStandingSine = std::sin(radians(30.0)), kTurnedSine = std::sin(radians(5.0));  // … by so much, where it is so far from level
 const double kFaceCosine = std::cos(radians(20.0));
 constexpr double kSystematic = 0.02;        // rad, of a measured normal whatever its noise: warps of the sensor
 constexpr double kLeanSigmas = 4.0;         // standard errors: a largest face that leans by less is level …
@@ -170,9 +172,6 @@ Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const
 }
 
 /// Axes of the two largest orthogonal faces, or of the largest and the rectangle around its points.
-constexpr double kTurningArea = 0.1;  // of the largest face
-const double kStandingSine = std::sin(radians(30.0)), kTurnedSine = std::sin(radians(5.0));
-
 Mat3 free_axes(const Observation& seen, std::vector<const Face*> faces) {
   std::stable_sort(faces.begin(), faces.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
   const Vec3 primary = faces.front()->plane.normal;

@@ -101,8 +101,8 @@ std::vector<char> hanging(const Problem& problem, const Arrangement& arrangement
 
 void link_hanging(const Problem& problem, const DepthView& view, std::vector<char>& held, Arrangement& arrangement, Context& context) {
   std::vector<Link> links = links_of(problem, view, arrangement, hanging(problem, arrangement, held));
-  int trials = 0;
   const auto link_all = [&](const auto& may_be) {
+    int trials = 0;
     for (bool changed = true; changed;) {
       changed = false;
       for (const Link& link : links) {
