@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <chrono>
 
 #include "cuboids/picture_registration.h"
 #include "perception_scenes.h"
