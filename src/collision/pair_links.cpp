@@ -18,6 +18,7 @@ constexpr double kLongestFrames = 6.5;  // frame times at least
 constexpr double kLongestOverlap = 4.0;  // frame times
 constexpr double kLater = 2.0;          // frame times by which the flight after must begin and end later
 constexpr double kAlikeBent = 0.1;      // of the curvature, by which perspective makes that of the other side another
+constexpr double kBentSlack = 2.0;      // times as far apart parabolas may end if flights in space decide: perspective bends paths otherwise
 constexpr double kSameTime = 2.5;       // frame times between the two bodies' own joints, beside what their spread explains
 constexpr double kMostSlack = 6.0;      // frame times that this may be at most
 constexpr double kMisfit = 2.0;         // ½ χ² a sighting about flights in space
@@ -102,7 +103,8 @@ bool agree(const std::vector<Arc>& arcs, double noise, Evidence evidence, Collis
   c.u = common_time(c.a, c.b, noise);
   if (std::isnan(c.u)) return false;
   const Joint ja = joint_of(c.a, c.u, noise), jb = joint_of(c.b, c.u, noise);
-  if (ja.apart > ja.tolerance || jb.apart > jb.tolerance || (evidence == Evidence::picture && !(ja.sudden && jb.sudden))) return false;
+  const double slack = evidence == Evidence::space ? kBentSlack : 1.0;
+  if (ja.apart > slack * ja.tolerance || jb.apart > slack * jb.tolerance || (evidence == Evidence::picture && !(ja.sudden && jb.sudden))) return false;
   const double opposed = ja.change.dot(jb.change) / (ja.change.norm() * jb.change.norm());
   if (opposed > kOpposed) return false;
   c.score = -20.0 * opposed - (ja.apart + jb.apart) / noise - 4.0 * time_between(c.a, c.b, noise) - c.a.unlike - c.b.unlike;

@@ -55,14 +55,14 @@ TEST(HiddenImpact, FlightsInSpaceTimeAnImpactThatNobodySeesForLong) {
   EXPECT_LT(std::abs(meeting->u - kImpact), 0.6 * std::abs(in_the_picture - kImpact));
 }
 
-/// What flights in space tell of two bodies that are hidden for a while, between silhouettes that may wander by kWander (px).
-constexpr double kWander = 8.0;
-std::vector<Collision> collisions_in_space(double pushed, double impact, std::uint64_t seed) {
-  const double radius[2] = {0.08, 0.06};
+constexpr double kWander = 8.0;  // px, of silhouettes
+
+/// Flights of two bodies that are hidden from frame 40 to 80, `frames` of each.
+std::vector<Arc> hidden_arcs(double pushed, double impact, std::uint64_t seed, int frames) {
   Random random(seed);
   std::vector<Arc> arcs;
   for (int i = 0; i < 4; ++i) {
-    arcs.push_back(arc_in_space(i % 2, i < 2 ? 10 : 80, i < 2 ? 40 : 110, radius[i % 2], impact, random, pushed));
+    arcs.push_back(arc_in_space(i % 2, i < 2 ? 40 - frames : 80, i < 2 ? 40 : 80 + frames, i % 2 == 0 ? 0.08 : 0.06, impact, random, pushed));
     CurveSums sums(arcs.back().begin());
     for (Candidate& c : arcs.back().points) {
       c.colored = true;
@@ -71,21 +71,33 @@ std::vector<Collision> collisions_in_space(double pushed, double impact, std::ui
     }
     arcs.back().curve = sums.fit();
   }
-  const Link link = link_of(arcs[1], arcs[3], kWander);
-  EXPECT_FALSE(joint_at(impact, link.curve_before, link.curve_after, kWander, link.diameter).sudden);
-  return find_collisions(pair_shot(radius[0], radius[1]), camera(), arcs, kWander, kFps);
+  return arcs;
 }
 
+std::vector<Collision> collisions_of(const std::vector<Arc>& arcs) { return find_collisions(pair_shot(0.08, 0.06), camera(), arcs, kWander, kFps); }
+
 TEST(HiddenImpact, FlightsInSpaceTellOfAnImpactThatTheNoiseOfSilhouettesHides) {
-  const std::vector<Collision> found = collisions_in_space(1.0, 60.0, 20);
+  const std::vector<Arc> arcs = hidden_arcs(1.0, 60.0, 20, 30);
+  const Link link = link_of(arcs[1], arcs[3], kWander);
+  EXPECT_FALSE(joint_at(60.0, link.curve_before, link.curve_after, kWander, link.diameter).sudden);
+  const std::vector<Collision> found = collisions_of(arcs);
   ASSERT_FALSE(found.empty());
   EXPECT_NEAR(found[0].u, 60.0, 1.5);
   EXPECT_EQ(found[0].a.before % 2, found[0].a.after % 2);
 }
 
+TEST(HiddenImpact, FlightsInSpaceDecideWhereParabolasOfThePictureEndFarApart) {
+  for (std::uint64_t seed = 20; seed < 24; ++seed) {
+    const std::vector<Collision> found = collisions_of(hidden_arcs(1.0, 48.0, seed, 40));
+    ASSERT_FALSE(found.empty()) << seed;
+    EXPECT_NEAR(found[0].u, 48.0, 1.5) << seed;
+  }
+}
+
 TEST(HiddenImpact, HardlyAChangeBehindSomethingIsNoCollision) {
-  for (const double pushed : {0.0, 0.03, 0.05})
-    for (std::uint64_t seed = 20; seed < 24; ++seed) EXPECT_TRUE(collisions_in_space(pushed, 60.0, seed).empty()) << pushed << " " << seed;
+  for (const double impact : {48.0, 60.0})
+    for (const double pushed : {0.0, 0.03, 0.05})
+      for (std::uint64_t seed = 20; seed < 24; ++seed) EXPECT_TRUE(collisions_of(hidden_arcs(pushed, impact, seed, 40)).empty()) << impact << " " << pushed << " " << seed;
 }
 
 }  // namespace
