@@ -23,6 +23,8 @@ constexpr double kShapeNoise = 0.012;    // of the outline's size: views that ar
 constexpr double kIndependent = 10.0;    // directions
 constexpr double kMostSquares = 60.0;    // χ² of one outline
 constexpr double kDistanceNoise = 0.03;  // share, of one outline
+constexpr double kAlike = 12.0;          // χ² by which a side is worse than the best that goes with an outline as well
+constexpr int kRounds = 5;
 constexpr double kClear = 20.0;          // χ² that tell the bodies apart
 
 /// A plane figure by its support about its centroid, both in units of the root of its area.
@@ -66,44 +68,66 @@ std::vector<Outline> outlines_of(const Body& body, const std::string& source) {
   return all;
 }
 
-/// What the best match of a region with a body says.
+/// A body from one side as what was seen: how well it goes with it, and the distance that follows.
+struct View {
+  double cost = 0, log_distance = 0;
+};
+
+/// The sides of a body that go with one outline about as well as the best; it comes first.
 struct Match {
-  double time = 0, cost = 0, log_distance = 0;
+  double time = 0;
+  std::vector<View> views;
 };
 
 Match match(const Outline& seen, double time, const std::vector<Outline>& body, double focal) {
-  double least = std::numeric_limits<double>::infinity(), size = 1.0;
-  for (const Outline& o : body)
+  const double noise = std::hypot(kOutlineNoise / seen.size, kShapeNoise), unit = kIndependent / kDirections / (noise * noise);
+  Match match{time, {}};
+  double least = std::numeric_limits<double>::infinity();
+  for (const Outline& o : body) {
+    double cost = std::numeric_limits<double>::infinity();
     for (int shift = 0; shift < kDirections; ++shift) {
       double sum = 0.0;
-      for (int i = 0; i < kDirections && sum < least; ++i) sum += std::pow(o.reach[(i + shift) % kDirections] - seen.reach[i], 2);
-      if (sum < least) least = sum, size = o.size;
+      for (int i = 0; i < kDirections && sum * unit < std::min(cost, least + kAlike); ++i) sum += std::pow(o.reach[(i + shift) % kDirections] - seen.reach[i], 2);
+      cost = std::min(cost, sum * unit);
     }
-  const double noise = std::hypot(kOutlineNoise / seen.size, kShapeNoise), cost = least * kIndependent / kDirections / (noise * noise);
-  return {time, std::min(cost, kMostSquares), std::log(focal * size / seen.size)};
+    if (cost >= least + kAlike) continue;
+    match.views.push_back({std::min(cost, kMostSquares), std::log(focal * o.size / seen.size)});
+    least = std::min(least, cost);
+  }
+  std::erase_if(match.views, [&](const View& v) { return v.cost > std::min(least, kMostSquares) + kAlike; });
+  std::sort(match.views.begin(), match.views.end(), [](const View& x, const View& y) { return x.cost < y.cost; });
+  return match;
 }
 
 /// A flight as one body: χ² of its outlines and of its distances about a line, and the logarithm of the distance at a time.
 struct FlightMatch {
-  double cost = 0, log_distance = 0;
+  double cost = std::numeric_limits<double>::infinity(), log_distance = 0;
 };
 
+/// Among sides that look alike those count whose distances change evenly: a box from another side may be as broad, and nearer.
 FlightMatch along(const std::vector<Match>& matches, double time) {
-  FlightMatch flight;
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  for (const Match& m : matches) {
-    const Eigen::Vector2d row(1.0, m.time - time);
-    normal += row * row.transpose();
-    right += row * m.log_distance;
-    flight.cost += m.cost;
+  FlightMatch best;
+  for (const Match& start : matches) {
+    Eigen::Vector2d line(start.views.front().log_distance, 0.0);
+    FlightMatch flight;
+    for (int round = 0; round < kRounds; ++round) {
+      Eigen::Matrix2d normal = Eigen::Vector2d(0.0, 1e-6).asDiagonal();
+      Eigen::Vector2d right = Eigen::Vector2d::Zero();
+      flight = {0.0, line[0]};
+      for (const Match& m : matches) {
+        const Eigen::Vector2d row(1.0, m.time - time);
+        double least = std::numeric_limits<double>::infinity(), distance = 0.0;
+        for (const View& v : m.views)
+          if (const double cost = v.cost + std::pow((v.log_distance - row.dot(line)) / kDistanceNoise, 2); cost < least) least = cost, distance = v.log_distance;
+        normal += row * row.transpose();
+        right += row * distance;
+        flight.cost += std::min(2.0 * kMostSquares, least);
+      }
+      line = normal.inverse() * right;
+    }
+    if (flight.cost < best.cost) best = flight;
   }
-  normal(1, 1) += 1e-6;
-  const Eigen::Vector2d line = normal.inverse() * right;
-  flight.log_distance = line[0];
-  for (const Match& m : matches)
-    flight.cost += std::min(kMostSquares, std::pow((m.log_distance - line[0] - line[1] * (m.time - time)) / kDistanceNoise, 2));
-  return flight;
+  return best;
 }
 
 /// Outlines of a flight, spread over it, with their times.
