@@ -26,14 +26,26 @@ std::string rotation(const Mat3& m) {
   return s.str();
 }
 
-std::string box_geom(const RigidBox& b) {
+std::string box_geom(const RigidBox& b, const Vec3& origin) {
   std::ostringstream s;
-  s << "<geom type=\"box\" pos=\"" << numbers(b.box.center) << "\" quat=\"" << rotation(b.box.axes) << "\" size=\""
+  s << "<geom type=\"box\" pos=\"" << numbers(b.box.center - origin) << "\" quat=\"" << rotation(b.box.axes) << "\" size=\""
     << numbers(b.box.half_size) << "\" density=\"" << b.density << "\"/>";
   return s.str();
 }
 
-/// Bodies keep the world's axes and origin, so that a body's pose is T_after_before of all its boxes.
+Vec3 centre_of_mass(const RigidScene& scene, const std::vector<int>& bodies, int body) {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i] != body) continue;
+    const double m = scene.boxes[i].density * scene.boxes[i].box.volume();
+    sum += m * scene.boxes[i].box.center;
+    mass += m;
+  }
+  return sum / mass;
+}
+
+/// Bodies keep the world's axes, each about its own centre of mass: turned about another place they gain energy with every step.
 std::string mjcf(const RigidScene& scene, const std::vector<int>& bodies) {
   std::ostringstream s;
   s << "<mujoco><option timestep=\"0.001\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\""
@@ -45,11 +57,12 @@ std::string mjcf(const RigidScene& scene, const std::vector<int>& bodies) {
       << rotation(turn) << "\"/>";
   }
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i] < 0) s << box_geom(scene.boxes[i]);
+    if (bodies[i] < 0) s << box_geom(scene.boxes[i], Vec3::Zero());
   for (int body = 0; std::find(bodies.begin(), bodies.end(), body) != bodies.end(); ++body) {
-    s << "<body name=\"" << body << "\"><freejoint/>";
+    const Vec3 centre = centre_of_mass(scene, bodies, body);
+    s << "<body name=\"" << body << "\" pos=\"" << numbers(centre) << "\"><freejoint/>";
     for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (bodies[i] == body) s << box_geom(scene.boxes[i]);
+      if (bodies[i] == body) s << box_geom(scene.boxes[i], centre);
     s << "</body>";
   }
   s << "</worldbody></mujoco>";
@@ -79,7 +92,7 @@ Settled settle_mujoco(const RigidScene& scene, double seconds) {
     if (body >= 0) {
       const int id = mj_name2id(model.get(), mjOBJ_BODY, std::to_string(body).c_str());
       pose.rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data->xmat + 9 * id);
-      pose.translation = Vec3::Map(data->xpos + 3 * id);
+      pose.translation = Vec3::Map(data->xpos + 3 * id) - pose.rotation * centre_of_mass(scene, bodies, body);
     }
     poses.push_back(pose);
   }
