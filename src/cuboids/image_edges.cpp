@@ -15,8 +15,8 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr int kRounds = 4;                // closest points are renewed in each
-constexpr double kReach[kRounds] = {10.0, 6.0, 4.0, 4.0};  // pixels to an edge
+constexpr int kMatchRounds = 4;           // closest points are renewed in each
+constexpr double kReach[kMatchRounds] = {10.0, 6.0, 4.0, 4.0};  // pixels to an edge
 constexpr double kPixelError = 1.5;       // pixels, of an edge
 constexpr double kFewestSamples = 12;
 constexpr double kInside = 1.5, kOutside = 8.0;  // σ of a side that was seen to end, in mm in and out: measured edges
@@ -128,7 +128,7 @@ struct Problem {
 
 Change align(const Problem& problem, const OrientedBox& box, const std::vector<EdgeSample>& samples, const DepthResidual& depth) {
   Change change{};
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kMatchRounds; ++round) {
     const OrientedBox now = changed(box, change);
     ceres::Problem sum;
     int found = 0;
