@@ -13,16 +13,17 @@ namespace {
 constexpr double kCurved = 30.0;    // degrees that neighbouring pieces of a hollow surface may differ by
 constexpr double kUndecided = 0.3;  // fall of whole faces that says too little of their edge
 constexpr int kNearLinks = 12;      // from an edge
-constexpr std::size_t kFewestNear = 10;
+constexpr int kFarLinks = 30;       // … where a crease and a hollow are told apart
+constexpr std::size_t kFewestNear = 60;  // points on either side
 constexpr double kBlunt = 60.0;     // degrees between normals
 constexpr double kWorse = 1.2;      // mean distance to a paraboloid, of that to two planes
 
-/// What of a face lies within some links of the ends of an edge's links.
-std::vector<int> part_near(const Observation& seen, const Faces& faces, int face, const std::vector<int>& ends) {
+/// What of a face lies within `reach` links of the ends of an edge's links.
+std::vector<int> part_near(const Observation& seen, const Faces& faces, int face, const std::vector<int>& ends, int reach) {
   std::set<int> visited(ends.begin(), ends.end());
   std::vector<int> queue(visited.begin(), visited.end()), part;
   std::size_t at = 0;
-  for (int step = 0; step <= kNearLinks; ++step)
+  for (int step = 0; step <= reach; ++step)
     for (const std::size_t end = queue.size(); at < end; ++at) {
       const int i = queue[at];
       if (faces.face_of_point[i] == face) part.push_back(i);
@@ -90,15 +91,20 @@ void judge(const Observation& seen, const Faces& faces, const std::pair<int, int
   // Edges are measured round.
   const double off = std::max(std::abs(a.plane.signed_distance(edge.place)), std::abs(b.plane.signed_distance(edge.place)));
   const bool meets = off < 5.0 * sigma + 1.5 * spacing;
-  const std::array<std::vector<int>, 2> near = {part_near(seen, faces, pair.first, edge.ends[0]), part_near(seen, faces, pair.second, edge.ends[1])};
+  const auto near = [&](int reach) {
+    return std::array{part_near(seen, faces, pair.first, edge.ends[0], reach), part_near(seen, faces, pair.second, edge.ends[1], reach)};
+  };
   // How far either rises before the other, as the sum of two sines: above 0 the edge is concave.
   const auto rise = [&](const Vec3& middle_a, const Vec3& middle_b) {
     return a.plane.normal.dot((middle_b - edge.place).normalized()) + b.plane.normal.dot((middle_a - edge.place).normalized());
   };
   double up = rise(a.center, b.center);
   // Far from the edge a large face may lie behind the other's plane, and beside it in front.
-  if (up <= 0.0 && up >= -kUndecided) up = rise(middle_of(seen, near[0], a.center), middle_of(seen, near[1], b.center));
-  edge.concave = angle > kCurved && up > 0.0 && !is_smooth(seen, near, edge.place, a.plane.normal, b.plane.normal);
+  if (up <= 0.0 && up >= -kUndecided) {
+    const auto parts = near(kNearLinks);
+    up = rise(middle_of(seen, parts[0], a.center), middle_of(seen, parts[1], b.center));
+  }
+  edge.concave = angle > kCurved && up > 0.0 && !is_smooth(seen, near(kFarLinks), edge.place, a.plane.normal, b.plane.normal);
   edge.joins = !edge.concave && meets && edge.links() >= kFewestEdgeLinks;
 }
 

@@ -9,6 +9,7 @@
 namespace unseen::planes {
 namespace {
 
+constexpr double kFirstFit = 12.0;    // cells of a region before its own fit counts
 constexpr double kRefitGrowth = 1.3;  // the running fit is renewed when a region has grown by this factor
 
 double least_points(const Space& space) { return space.is_2d() ? 5 : 8; }
@@ -51,7 +52,7 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
     std::vector<int> region = {seed};
     Moments sum = grid.moments[seed];
     Vec3 normal = cells.normal[seed], center = sum.mean;
-    double next_fit = 3.0 * std::max<double>(4, 1);  // cells
+    double next_fit = kFirstFit;
     grid.erase(open, seed);
     for (std::size_t at = 0; at < region.size(); ++at) {
       const Cell& from = cell[region[at]];
