@@ -15,6 +15,8 @@ namespace {
 constexpr double kSameYaw = 10.0;  // deg: what two visible parts of one box may differ by
 
 constexpr double kKnownObject = 0.4;  // share that may be free where a label says that parts are one: boxes only resemble things
+const double kLeansCosine = std::cos(radians(5.0));
+constexpr double kLeansInto = 0.25;  // share of what the whole adds to its parts, in what it leans on
 constexpr double kSpacings = 3.0;  // between pixels, that an edge may be off
 constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
 
@@ -106,6 +108,17 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
   return in_hidden_space(view, parts, whole, tolerance) ? std::optional(whole) : std::nullopt;
 }
 
+/// Whether a third box leaves no room for the whole of two parts. What leans on a box touches it along an edge that may be hidden, so that a small error of
+/// either puts the one into the other.
+bool is_in_the_way(const OrientedBox& other, const OrientedBox& whole, std::span<const OrientedBox> parts, double tolerance) {
+  const auto meet = interface_of(solid_of(whole), solid_of(other), 0.0);
+  if (!meet || -meet->gap <= tolerance) return false;
+  int thin = 0;
+  whole.half_size.minCoeff(&thin);
+  const bool leans = (other.axes.transpose() * whole.axes.col(thin)).cwiseAbs().maxCoeff() < kLeansCosine;
+  return !leans || share_inside(parts, whole, other, tolerance) > kLeansInto;
+}
+
 }  // namespace
 
 std::vector<double> contact_tolerance(const DepthView& view, const std::vector<Cuboid>& cuboids) {
@@ -126,10 +139,9 @@ std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std
         const double within = std::max(tolerance[i], tolerance[j]);
         const auto whole = joined(view, cuboids[i], cuboids[j], within);
         if (!whole) continue;
+        const std::array parts = {cuboids[i].initial, cuboids[j].initial};
         const bool blocked = std::any_of(cuboids.begin(), cuboids.end(), [&](const Cuboid& other) {
-          if (&other == &cuboids[i] || &other == &cuboids[j]) return false;
-          const auto meet = interface_of(solid_of(*whole), solid_of(other.initial), 0.0);
-          return meet && -meet->gap > within;
+          return &other != &cuboids[i] && &other != &cuboids[j] && is_in_the_way(other.initial, *whole, parts, within);
         });
         if (blocked) continue;
         cuboids[i].initial = cuboids[i].box = *whole;

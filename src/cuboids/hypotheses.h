@@ -32,5 +32,7 @@ inline constexpr double kHiddenRoom = 2.0;  ///< tolerances: a face with less ro
 /// True if what a box adds to `known` ones lies in space that the view does not prove free, but for a share of it.
 bool in_hidden_space(const DepthView& view, std::span<const OrientedBox> known, const OrientedBox& box, double margin,
                      double share = kFreeShare);
+/// Share of what a box adds to `known` ones that lies in another box, deeper than a margin (m).
+double share_inside(std::span<const OrientedBox> known, const OrientedBox& box, const OrientedBox& other, double margin);
 
 }  // namespace unseen::cuboids

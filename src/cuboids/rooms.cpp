@@ -83,24 +83,35 @@ Rooms find_rooms(const DepthView& view, const std::vector<Cuboid>& cuboids, cons
   return rooms;
 }
 
-bool in_hidden_space(const DepthView& view, std::span<const OrientedBox> known, const OrientedBox& box, double margin, double share) {
-  int free = 0, all = 0;
+/// m: how far outside of a box a place is, along the axis where it is farthest; inside below 0.
+static double outside_of(const OrientedBox& box, const Vec3& p) {
+  return ((box.axes.transpose() * (p - box.center)).cwiseAbs() - box.half_size).maxCoeff();
+}
+
+/// Places on a grid in a box that are in none of the known ones.
+static std::vector<Vec3> places_added(std::span<const OrientedBox> known, const OrientedBox& box, double margin) {
   std::array<std::vector<double>, 3> grid;
   for (int k = 0; k < 3; ++k) grid[k] = places(box.half_size[k], margin, std::max(margin, box.half_size[k] / 5.0));
-  const auto is_known = [&](const Vec3& p) {
-    return std::any_of(known.begin(), known.end(), [&](const OrientedBox& k) {
-      return ((k.axes.transpose() * (p - k.center)).cwiseAbs() - k.half_size).maxCoeff() <= margin;
-    });
-  };
+  std::vector<Vec3> out;
   for (const double x : grid[0])
     for (const double y : grid[1])
       for (const double z : grid[2]) {
         const Vec3 p = box.center + box.axes * Vec3(x, y, z);
-        if (is_known(p)) continue;
-        ++all;
-        free += view.at(p) == DepthView::Space::free;
+        if (std::none_of(known.begin(), known.end(), [&](const OrientedBox& k) { return outside_of(k, p) <= margin; })) out.push_back(p);
       }
-  return free <= share * all;
+  return out;
+}
+
+bool in_hidden_space(const DepthView& view, std::span<const OrientedBox> known, const OrientedBox& box, double margin, double share) {
+  const std::vector<Vec3> added = places_added(known, box, margin);
+  const auto free = std::count_if(added.begin(), added.end(), [&](const Vec3& p) { return view.at(p) == DepthView::Space::free; });
+  return static_cast<double>(free) <= share * static_cast<double>(added.size());
+}
+
+double share_inside(std::span<const OrientedBox> known, const OrientedBox& box, const OrientedBox& other, double margin) {
+  const std::vector<Vec3> added = places_added(known, box, margin);
+  const auto inside = std::count_if(added.begin(), added.end(), [&](const Vec3& p) { return outside_of(other, p) < -margin; });
+  return added.empty() ? 0.0 : static_cast<double>(inside) / static_cast<double>(added.size());
 }
 
 }  // namespace unseen::cuboids

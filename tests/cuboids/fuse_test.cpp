@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// Parts of one box that something before it divides.
+#include <gtest/gtest.h>
+
+#include "cuboids/complete.h"
+#include "perception_scenes.h"
+
+namespace unseen::cuboids::test {
+namespace {
+
+/// A crate, and a board behind it that leans on its upper edge.
+Scene board_on_crate(double lean, double aside) {
+  Scene scene;
+  scene.height = 1.0;
+  scene.pitch = radians(25.0);
+  const OrientedBox crate = upright(0.0, 1.6, 0, {0.4, 0.4, 0.4}, 0);
+  OrientedBox board;
+  board.half_size = Vec3(0.2, 0.01, 0.3);
+  board.axes = Eigen::AngleAxisd(radians(lean), Vec3::UnitX()).toRotationMatrix();
+  const Vec3 edge(aside, 1.8, 0.4), up = board.axes.col(2), front = -board.axes.col(1);
+  const Vec3 foot = edge - up * (edge.z() / up.z());
+  board.center = foot + up * 0.3 - front * 0.01;
+  const double yaw = radians(aside < 0.0 ? 30.0 : -30.0);
+  const Mat3 turn = Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix();
+  const Vec3 about(0, 1.6, 0);
+  scene.boxes = {crate, board};
+  for (OrientedBox& box : scene.boxes) {
+    box.axes = turn * box.axes;
+    box.center = about + turn * (box.center - about);
+  }
+  return scene;
+}
+
+/// What is left of a crate, fitted too deep by so much (m), and the two parts of a board that are seen above and beside it.
+std::vector<Cuboid> fused(const Scene& scene, double aside, double too_deep) {
+  const RgbdFrame frame = render(scene);
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  const DepthView view(frame, seen.T_world_camera, depth_noise(frame, {}));
+  const OrientedBox &crate = scene.boxes[0], &board = scene.boxes[1];
+  std::vector<Cuboid> cuboids(3);
+  cuboids[0].initial = crate;
+  cuboids[0].initial.half_size.y() += 0.5 * too_deep;
+  cuboids[0].initial.center += 0.5 * too_deep * crate.axes.col(1);
+  const double edge = 0.4 / board.axes(2, 2) - 0.3;  // along the board, from its middle
+  const double side = aside < 0.0 ? -1.0 : 1.0;
+  cuboids[1].initial = cuboids[2].initial = board;
+  cuboids[1].initial.half_size.z() = 0.5 * (0.3 - edge);
+  cuboids[1].initial.center += 0.5 * (0.3 + edge) * board.axes.col(2);
+  cuboids[2].initial.half_size.z() = 0.5 * (0.3 + edge);
+  cuboids[2].initial.half_size.x() = 0.06;
+  cuboids[2].initial.center += 0.5 * (edge - 0.3) * board.axes.col(2) + side * 0.14 * board.axes.col(0);
+  for (Cuboid& cuboid : cuboids) cuboid.visible_points = 1000;
+  std::vector<double> tolerance = contact_tolerance(view, cuboids);
+  fuse_pieces(view, cuboids, tolerance);
+  return cuboids;
+}
+
+TEST(Fuse, ABoardThatLeansOnACrateAndIsSeenAboveAndBesideItIsOne) {
+  for (const double lean : {8.0, 14.0, 20.0})
+    for (const double aside : {-0.15, 0.15})
+      for (const double too_deep : {0.0, 0.02}) {
+        const Scene scene = board_on_crate(lean, aside);
+        const std::vector<Cuboid> cuboids = fused(scene, aside, too_deep);
+        ASSERT_EQ(cuboids.size(), 2u) << lean << " " << aside << " " << too_deep;
+        EXPECT_LT((cuboids[1].initial.half_size - scene.boxes[1].half_size).cwiseAbs().maxCoeff(), 1e-3) << lean << " " << aside << " " << too_deep;
+      }
+}
+
+}  // namespace
+}  // namespace unseen::cuboids::test
