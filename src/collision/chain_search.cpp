@@ -8,6 +8,7 @@
 
 #include "collision/flight_cost.h"
 #include "collision/linear_flights.h"
+#include "collision/median.h"
 #include "collision/shot_problem.h"
 
 namespace unseen::collision {
@@ -137,10 +138,13 @@ std::optional<Tracks> search_chain(const Shot& shot, const ShotCamera& camera, s
   Tracks tracks;
   tracks.noise = noise;
   for (const auto& [begin, end] : spans) add_flight(seen, begin, end, body, fps, tracks);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < seen.size(); ++i) steps.push_back(seen[i].u - seen[i - 1].u);
+  constexpr double kLongestGap = 4.0;  // frames, or steps of what was seen in fewer
+  const double longest = kLongestGap * std::max(1.0, median(steps));
   for (std::size_t k = 0; k + 1 < spans.size(); ++k) {
-    constexpr double kLongestGap = 4.0;  // frames
     const double end = seen[spans[k].end - 1].u, begin = seen[spans[k + 1].begin].u;
-    if (begin - end > kLongestGap) continue;
+    if (begin - end > longest) continue;
     tracks.meetings.push_back({0.5 * (begin + end) / fps, {static_cast<int>(k)}, {static_cast<int>(k) + 1}});
   }
   if (tracks.meetings.empty()) return std::nullopt;

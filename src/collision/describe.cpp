@@ -51,8 +51,8 @@ struct Teller {
   Impact describe(const FrameClock& clock) const {
     const StateT<double> s = values_of(problem(), state());
     Impact told;
+    told.time = s.time;
     told.frame = clock.frame_at(s.time);
-    told.time = told.frame / clock.fps();
     told.restitution = impact.uncertain.restitution;
     told.impulse = to_world * s.impulse;
     told.contact_point = to_world * (problem().fixed && !impact.solution.fit.touch ? Vec3(s.p[0] - contact_normal<double>(state(), s) * 0.5 * problem().solids[0].mass.extent) : s.x);
@@ -102,8 +102,7 @@ void add_frames(const std::vector<Teller>& tellers, const Tracks& tracks, const 
   for (int frame = clock.first(); frame <= clock.last(); ++frame) {
     FramePose pose;
     pose.frame = frame;
-    pose.time = frame / clock.fps();
-    const double time = clock.time_at(frame);
+    const double time = pose.time = clock.time_at(frame);
     std::size_t nearest = 0;
     for (std::size_t i = 1; i < tellers.size(); ++i)
       if (std::abs(time_of(i) - time) < std::abs(time_of(nearest) - time)) nearest = i;

@@ -67,6 +67,7 @@ std::optional<double> Flights::settle_down(const std::function<std::optional<dou
 }
 
 std::optional<double> Flights::cost(const std::vector<std::vector<Candidate>>& bodies, std::size_t begin, std::size_t end, std::optional<double> u, double fps) const {
+  if (!u && begin >= bodies[0].size()) return std::nullopt;
   Tracks tracks;
   tracks.noise = noise_;
   Tracks::Meeting meeting{u ? *u / fps : bodies[0][begin].u / fps, {}, {}};

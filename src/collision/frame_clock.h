@@ -15,7 +15,6 @@ class FrameClock {
 
   double frame_at(double time) const;
   double time_at(double frame) const;
-  double fps() const { return fps_; }
   /// The frames that any flight spans.
   int first() const { return first_; }
   int last() const { return last_; }

@@ -14,17 +14,26 @@ constexpr int kNeighbours = 4;        // frames on either side that a frame's ch
 constexpr double kRepeats = 0.08;     // share of the neighbours' change that a repeated frame may show
 constexpr double kUneven = 0.25;      // of a frame time
 
-/// Steps between stamps in frame times of the median step; containers leave some stamps out, those count as one.
-std::vector<double> steps_of(const std::vector<double>& stamps) {
-  std::vector<double> steps, sorted;
+/// The median step between stamps that follow each other, s; 0 = there is none.
+double typical_step(const std::vector<double>& stamps) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < stamps.size(); ++k)
+    if (stamps[k] > stamps[k - 1]) steps.push_back(stamps[k] - stamps[k - 1]);
+  if (steps.empty()) return 0.0;
+  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
+  return steps[steps.size() / 2];
+}
+
+/// Steps between frames, in frame times of the typical step. Containers leave some stamps out: what is between the two beside them is shared out.
+std::vector<double> steps_of(const std::vector<double>& stamps, double typical) {
+  std::vector<double> steps(stamps.size() - 1, 1.0);
+  std::size_t last = 0;  // that has a stamp
   for (std::size_t k = 1; k < stamps.size(); ++k) {
-    steps.push_back(stamps[k] - stamps[k - 1]);
-    if (steps.back() > 0.0) sorted.push_back(steps.back());
+    if (stamps[k] <= stamps[last]) continue;
+    const double between = (stamps[k] - stamps[last]) / typical / static_cast<double>(k - last);
+    std::fill(steps.begin() + last, steps.begin() + k, between);
+    last = k;
   }
-  if (sorted.empty()) return {};
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double typical = sorted[sorted.size() / 2];
-  for (double& step : steps) step = step > 0.0 ? step / typical : 1.0;
   return steps;
 }
 
@@ -49,13 +58,16 @@ std::vector<double> frame_times(const std::vector<double>& stamps, double file_f
   const double rate = fps.value_or(file_fps);
   std::vector<double> times(stamps.size());
   for (std::size_t k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) / rate;
-  const std::vector<double> steps = steps_of(stamps);
+  const double typical = typical_step(stamps);
+  if (typical == 0.0) return times;
+  const std::vector<double> steps = steps_of(stamps, typical);
   const auto uneven = std::count_if(steps.begin(), steps.end(), [](double s) { return std::abs(s - 1.0) > kUneven; });
   if (uneven == 0) return times;
   const double longest = *std::max_element(steps.begin(), steps.end());
   context.warn(fmt::format("{}: the time stamps are uneven ({} of {} steps, the longest {:.1f} frame times); they are used instead of "
                            "an even frame rate", name, uneven, steps.size(), longest));
-  for (std::size_t k = 1; k < times.size(); ++k) times[k] = times[k - 1] + steps[k - 1] / rate;
+  const double step = fps ? 1.0 / *fps : typical;  // the file's own rate counts the missing frames too
+  for (std::size_t k = 1; k < times.size(); ++k) times[k] = times[k - 1] + steps[k - 1] * step;
   return times;
 }
 

@@ -13,8 +13,8 @@ namespace unseen::collision {
 /// Frames that repeat the one before: `change[k]` is the mean difference of frame k from frame k − 1, tiny against its neighbours'.
 std::vector<char> doubled_frames(const std::vector<double>& change);
 
-/// Times of the frames, s, the first at 0: frame / fps where the time stamps are even or useless, else the stamps themselves, scaled
-/// to the frame rate that `fps` overrides. Warns of uneven stamps.
+/// Times of the frames, s, the first at 0: frame / fps where the time stamps are even or useless, else the stamps themselves, or, with
+/// `fps`, in its frame times. Warns of uneven stamps.
 std::vector<double> frame_times(const std::vector<double>& stamps, double file_fps, std::optional<double> fps, const std::string& name,
                                 Context& context);
 

@@ -18,6 +18,7 @@ namespace {
 constexpr double kMostChi2 = 3.0;
 constexpr double kMostEnergy = 1.005;  // of that before: bounds are soft, so a little more than 1 is none
 constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video are known to at best
+constexpr int kFewestLeft = 3;          // sightings of a flight, where some are held out
 constexpr double kMostStrain = 3.0;   // noise that contact and orientations may be off by in the mean
 constexpr double kFar = 5.0, kMedianOfNorm = 1.1774;  // noise; of normal noise in two dimensions
 constexpr double kMostOutliers = 0.2;  // of the sightings
@@ -87,6 +88,19 @@ std::vector<std::string> trends(const Problem& problem, const std::vector<Vec2>&
   return found;
 }
 
+/// Every n-th sighting of each flight, of those that leave it enough.
+std::vector<char> every_nth(const std::vector<PointObservation>& points, int n) {
+  std::map<std::pair<int, bool>, int> all, counted;
+  for (const PointObservation& p : points) ++all[{p.body, p.after}];
+  std::vector<char> held_out;
+  for (const PointObservation& p : points) {
+    const std::pair flight(p.body, p.after);
+    const bool nth = counted[flight]++ % n == n - 1;
+    held_out.push_back(nth && all[flight] - all[flight] / n >= kFewestLeft);
+  }
+  return held_out;
+}
+
 }  // namespace
 
 ModelCheck check_model(const Solution& solution, int every, double noise) {
@@ -102,10 +116,9 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
   if (every > 1) {
     Problem rest = problem;
     rest.points.clear();
-    for (std::size_t i = 0; i < problem.points.size(); ++i) {
-      check.held_out[i] = problem.points[i].frame % every == 0;
+    check.held_out = every_nth(problem.points, every);
+    for (std::size_t i = 0; i < problem.points.size(); ++i)
       if (!check.held_out[i]) rest.points.push_back(problem.points[i]);
-    }
     const Fit fit = settle(rest, state);
     if (fit.usable) state = fit.state;
   }

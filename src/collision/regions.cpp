@@ -23,6 +23,7 @@ constexpr int kLargestWidth = 1400;    // px: wider pictures are worked on at a 
 constexpr int kTrackedWidth = 640;     // px: the camera's motion is found at
 constexpr std::size_t kBatch = 8;      // frames
 constexpr double kBlack = 0.4;         // of the typical brightness: a frame that shows nothing
+constexpr double kNothing = 8.0;       // of 255, mean brightness: the same, where nothing else is known
 constexpr double kFarMove = 0.06;      // of the picture's diagonal: more than hand-held
 constexpr double kLostMotion = 0.3;    // share of the frames
 constexpr double kEdgeSlack = 0.5;     // px, of a background that is moved
@@ -69,6 +70,7 @@ Survey survey_clip(const Shot& shot, io::Clip& clip, Context& context) {
   Survey survey;
   survey.first = shot.frames ? (*shot.frames)[0] : 0;
   cv::Mat frame, gray, small, before;
+  double lit = 0;  // brightness of the first frame that shows anything
   for (int k = 0; (!shot.frames || k <= (*shot.frames)[1]) && clip.next(frame); ++k) {
     context.check();
     if (clip.announced() > 0) context.progress(std::min(0.3, 0.3 * k / clip.announced()));
@@ -81,7 +83,8 @@ Survey survey_clip(const Shot& shot, io::Clip& clip, Context& context) {
     survey.stamps.push_back(clip.stamp());
     survey.brightness.push_back(cv::mean(gray)[0]);
     survey.change.push_back(before.empty() ? 0.0 : cv::norm(gray, before, cv::NORM_L1) / static_cast<double>(gray.total()));
-    const bool black = survey.brightness.back() < kBlack * survey.brightness.front();
+    const bool black = survey.brightness.back() < std::max(kNothing, kBlack * lit);
+    if (!black && lit == 0.0) lit = survey.brightness.back();
     survey.stabiliser.add(gray, !black);
     if (k >= survey.first) survey.sample.add(working_copy(frame, survey));
     cv::swap(gray, before);

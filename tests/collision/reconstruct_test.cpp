@@ -141,5 +141,46 @@ TEST(Reconstruct, SameSeedSameValuesAtAnyThreadCount) {
   EXPECT_EQ(a.restitution->sd, b.restitution->sd);
 }
 
+/// The sightings of every n-th frame, from one on.
+Shot thinned(Shot shot, int n, int from) {
+  std::erase_if(shot.observations, [&](const Sighting& seen) { return seen.frame % n != from; });
+  return shot;
+}
+
+TEST(Reconstruct, SightingsInEveryNthFrameAreAsGood) {
+  SynthOptions synth;
+  synth.scene = "balls";
+  synth.fps = 960;
+  synth.video = false;
+  const SynthShot balls = simulate(synth);
+  for (const auto& [n, from] : {std::pair{5, 1}, {10, 0}}) {
+    Context context;
+    const Reconstruction r = reconstruct(thinned(balls.shot, n, from), {}, context);
+    ASSERT_TRUE(r.restitution) << n << " " << from;
+    EXPECT_NEAR(r.restitution->value, *balls.truth.restitution, 0.05) << n << " " << from;
+    EXPECT_TRUE(r.fits) << n << " " << from;
+    EXPECT_GT(r.held_out_rms, 0.0) << n << " " << from;
+  }
+  for (const int n : {5, 8}) {
+    Context context;
+    const Reconstruction r = reconstruct(thinned(bouncing_ball(0.7, 1000, 960), n, 0), {}, context);
+    ASSERT_TRUE(r.restitution) << n;
+    EXPECT_NEAR(r.restitution->value, 0.7, 0.01) << n;
+  }
+}
+
+TEST(Reconstruct, FiveSightingsAfterTheBounceOfManyAreRead) {  // so many that ends are multiples of a step: one lies behind the last
+  Shot shot = bouncing_ball(0.7, 1, 240);
+  shot.observations.clear();
+  shot.camera.camera = {1000, 1000, 639.5, 359.5, 1280, 720};
+  shot.bodies[0].radius = 0.05;
+  for (int k = -240; k < 5; ++k) {
+    const double t = (k + 0.5) / 240.0, y = 0.75 + (t < 0.0 ? 4.0 : -3.0) * t + 0.5 * 9.81 * t * t, x = -0.6 + 0.5 * (t + 1.0);
+    shot.observations.push_back({k + 240, {639.5 + 400 * x, 359.5 + 400 * y}, 20.0, 0});
+  }
+  Context context;
+  EXPECT_LE(reconstruct(shot, {}, context).impacts.size(), 1u);
+}
+
 }  // namespace
 }  // namespace unseen::collision

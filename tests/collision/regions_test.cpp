@@ -115,12 +115,14 @@ TEST(Regions, FlickerAndBlackFramesAreNoMovers) {
   EXPECT_LT(worst_error(footage, 1, 10, thrown), 0.5);
 }
 
-TEST(Regions, UnsteadyHandIsUndone) {
+/// A film by an unsteady hand whose first frames are black.
+void expect_steadied(int black) {
   const Scratch scratch("hand");
   const std::string path = scratch.file("hand.avi");
   const cv::Mat background = wall(12);
   const auto sway = [](int k) { return Vec2(4.0 * std::sin(0.35 * k), 3.0 * std::cos(0.23 * k) - 3.0); };
   write_video(path, 40, [&](int k) {
+    if (k < black) return cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(0));
     cv::Mat m = (cv::Mat_<double>(2, 3) << 1, 0, -12 - sway(k).x(), 0, 1, -12 - sway(k).y()), frame;
     cv::warpAffine(background, frame, m, {kWidth, kHeight}, cv::INTER_LINEAR);
     draw_disc(frame, thrown(k) - sway(k), 12.0, kRed);
@@ -130,12 +132,15 @@ TEST(Regions, UnsteadyHandIsUndone) {
   const Footage footage = find_regions(shot_of(path), context);
   ASSERT_EQ(footage.shift.size(), 40u);
   EXPECT_FALSE(footage.moving_camera);
-  EXPECT_LT(worst_error(footage, 1, 36, [&](int k) { return Vec2(thrown(k) - sway(k)); }), 0.5);
-  for (int k = 0; k < 40; ++k) {
-    EXPECT_NEAR(footage.shift[k].at<double>(0, 2), sway(k).x() - sway(0).x(), 0.5) << k;
-    EXPECT_NEAR(footage.shift[k].at<double>(1, 2), sway(k).y() - sway(0).y(), 0.5) << k;
+  EXPECT_LT(worst_error(footage, black + 1, 36, [&](int k) { return Vec2(thrown(k) - sway(k)); }), 0.5);
+  for (int k = black; k < 40; ++k) {
+    EXPECT_NEAR(footage.shift[k].at<double>(0, 2), sway(k).x() - sway(black).x(), 0.5) << k;
+    EXPECT_NEAR(footage.shift[k].at<double>(1, 2), sway(k).y() - sway(black).y(), 0.5) << k;
   }
 }
+
+TEST(Regions, UnsteadyHandIsUndone) { expect_steadied(0); }
+TEST(Regions, UnsteadyHandIsUndoneAfterBlackFrames) { expect_steadied(2); }
 
 TEST(Regions, APanIsNoticed) {
   const Scratch scratch("pan");
@@ -366,8 +371,11 @@ TEST(Hygiene, UnevenStampsAreUsedAndSaid) {
   EXPECT_NEAR(frame_times(broken, 25.0, {}, "v", context)[3], 0.12, 1e-12);
   EXPECT_NEAR(frame_times(even, 25.0, 250.0, "v", context)[3], 0.012, 1e-12);
   EXPECT_FALSE(warned(context, "uneven"));
-  EXPECT_NEAR(frame_times(uneven, 25.0, {}, "v", context)[5], 0.24, 1e-9);
+  for (const double average : {25.0, 20.8}) EXPECT_NEAR(frame_times(uneven, average, {}, "v", context)[5], 0.24, 1e-9);
+  EXPECT_NEAR(frame_times(uneven, 20.8, 250.0, "v", context)[5], 0.024, 1e-9);
   EXPECT_TRUE(warned(context, "uneven"));
+  const std::vector<double> holed{0.0, 0.04, 0.0, 0.12, 0.16};
+  EXPECT_NEAR(frame_times(holed, 25.0, {}, "v", context)[4], 0.16, 1e-9);
 }
 
 }  // namespace
