@@ -4,6 +4,10 @@
 
 #include <cmath>
 
+#include "collision/describe.h"
+#include "collision/shot_problem.h"
+#include "collision/solve_impacts.h"
+#include "collision/tracks.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
 
@@ -180,6 +184,28 @@ TEST(Reconstruct, FiveSightingsAfterTheBounceOfManyAreRead) {  // so many that e
   }
   Context context;
   EXPECT_LE(reconstruct(shot, {}, context).impacts.size(), 1u);
+}
+
+TEST(Reconstruct, TellsTheTimesOfFramesThatComeUnevenly) {
+  const Shot shot = bouncing_ball(0.7, 55);
+  const ShotCamera camera = complete_camera(shot, 0, 0);
+  Context context;
+  Tracks tracks = find_tracks(shot, camera, shot.observations, *shot.fps, context);
+  for (TrackPoint& p : tracks.points)
+    if (p.frame > 10) p.frame += 8;  // eight pictures more between two of them
+  const std::array<Solid, 2> solids = {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)};
+  Reconstruction r;
+  std::vector<SolvedImpact> impacts = solve_positions(shot, {}, camera, solids, tracks, *shot.fps, context);
+  ASSERT_GE(impacts.size(), 1u);
+  for (SolvedImpact& impact : impacts) {
+    impact.check.held_out.assign(impact.solution.problem.points.size(), 0);
+    impact.check.outlier = impact.check.held_out;
+  }
+  describe(shot, tracks, *shot.fps, impacts, r);
+  EXPECT_NEAR(r.impacts[0].time, std::sqrt(2.0 * 0.8 / 9.81), 0.005);
+  EXPECT_NEAR(r.impacts[0].frame, std::sqrt(2.0 * 0.8 / 9.81) * 60 + 8, 0.3);
+  for (const FramePose& f : r.frames)
+    if (f.frame <= 10 || f.frame > 18) EXPECT_NEAR(f.time, (f.frame > 10 ? f.frame - 8 : f.frame) / 60.0, 1e-9) << f.frame;
 }
 
 }  // namespace
