@@ -166,13 +166,18 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
       restitutions.push_back(teller.impact.uncertain.restitution);
       common.push_back(teller.impact.uncertain.common);
     }
-    used += std::pow(teller.impact.check.used_rms, 2) / static_cast<double>(tellers.size());
-    held_out += std::pow(teller.impact.check.held_out_rms, 2) / static_cast<double>(tellers.size());
     add_residuals(teller.impact, result);
   }
+  const auto fitting = std::count_if(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return i.check.fits; });
+  result.fits = !restitutions.empty() && 2 * fitting >= static_cast<std::ptrdiff_t>(impacts.size());
+  for (const SolvedImpact& impact : impacts)
+    if (impact.check.fits || !result.fits) {
+      const double share = 1.0 / static_cast<double>(result.fits ? fitting : static_cast<std::ptrdiff_t>(impacts.size()));
+      used += share * std::pow(impact.check.used_rms, 2);
+      held_out += share * std::pow(impact.check.held_out_rms, 2);
+    }
   result.reprojection_rms = std::sqrt(used);
   result.held_out_rms = std::sqrt(held_out);
-  result.fits = !restitutions.empty();
   if (result.fits) {
     const Estimate c = pooled(restitutions, common);
     const bool one_collision = problem.fixed || tracks.collisions_seen <= 1;

@@ -22,6 +22,7 @@ namespace {
 constexpr int kLargestWidth = 1400;    // px: wider pictures are worked on at a half, a third, …
 constexpr int kTrackedWidth = 640;     // px: the camera's motion is found at
 constexpr std::size_t kBatch = 8;      // frames
+constexpr double kOtherRate = 0.01;    // of the frame rate that the file states: worth a word
 constexpr double kBlack = 0.4;         // of the typical brightness: a frame that shows nothing
 constexpr double kNothing = 8.0;       // of 255, mean brightness: the same, where nothing else is known
 constexpr double kFarMove = 0.06;      // of the picture's diagonal: more than hand-held
@@ -99,6 +100,8 @@ void check_file(const Shot& shot, const io::Clip& clip, const Survey& survey, Co
   if (decoded < 2)
     throw InputError(shot.video, "frames", decoded == 0 ? "no frame that can be decoded" : "one frame", "a video of several frames");
   if (!shot.fps && clip.fps() <= 0.0) throw InputError(shot.video, "fps", "no frame rate", "one in the file, or \"fps\" in the shot");
+  if (shot.fps && clip.fps() > 0.0 && std::abs(*shot.fps / clip.fps() - 1.0) > kOtherRate)
+    context.message(fmt::format("{}: the file states {:.4g} frames a second; {:.4g}, as the shot says, are taken", shot.video, clip.fps(), *shot.fps));
   if (decoded - survey.first < 2)
     throw InputError(shot.name, "frames", fmt::format("{} frames in the video", decoded), fmt::format("more than {}", survey.first + 1));
   const bool to_the_end = !shot.frames || (*shot.frames)[1] >= decoded;

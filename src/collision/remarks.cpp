@@ -69,12 +69,12 @@ void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedI
   compare_down(shot, impacts.front(), context);
   if (result.fixed.empty() && tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
   const bool refused = std::any_of(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return !i.check.reasons.empty(); });
-  if (!result.fits && refused)
-    for (const SolvedImpact& impact : impacts)
-      for (const std::string& reason : impact.check.reasons) context.warn("the model does not fit: " + reason);
-  else if (!result.fits)
+  for (std::size_t i = 0; i < impacts.size(); ++i)
+    for (const std::string& reason : impacts[i].check.reasons)
+      context.warn(result.fits ? fmt::format("the impact at frame {:.1f} is left out: {}", result.impacts[i].frame, reason) : "the model does not fit: " + reason);
+  if (!result.fits && !refused)
     context.warn("no confident restitution: it ends on a bound, 0 or 1");
-  else if (!result.restitution)
+  if (result.fits && !result.restitution)
     context.warn("no confident restitution: the flights tell too little of it");
   look_for_drag(shot, impacts, result, context);
 }

@@ -208,5 +208,20 @@ TEST(Reconstruct, TellsTheTimesOfFramesThatComeUnevenly) {
     if (f.frame <= 10 || f.frame > 18) EXPECT_NEAR(f.time, (f.frame > 10 ? f.frame - 8 : f.frame) / 60.0, 1e-9) << f.frame;
 }
 
+TEST(Reconstruct, ADownThatPointsUpIsNoFit) {
+  for (const std::uint64_t seed : {5, 8}) {
+    SynthOptions synth;
+    synth.scene = "ball-floor";
+    synth.video = false;
+    synth.seed = seed;
+    Shot shot = simulate(synth).shot;
+    shot.down = Vec3(0, -1, 0);
+    Context context;
+    const Reconstruction r = reconstruct(shot, {}, context);
+    EXPECT_FALSE(r.fits) << seed;  // though one of its impacts may look so
+    EXPECT_FALSE(r.restitution) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace unseen::collision
