@@ -70,9 +70,11 @@ void add_alternative(std::vector<SolvedImpact> solved, double saved, Reconstruct
   for (std::size_t k = 0; k < solved.size(); ++k) {
     add_covariance(solved[k].solution.problem, solved[k].solution.fit);
     each.push_back(restitution_of(solved[k].solution.problem, solved[k].solution.fit));
-    widen(result.impacts[k].restitution, each.back().value);
   }
-  const double c = pooled(each).value;
+  constexpr double kSlack = 0.05;
+  const double pool = pooled(each).value, c = std::clamp(pool, 0.0, 1.0);
+  if (!(std::abs(pool - c) < kSlack)) return;  // no body bounces so
+  for (std::size_t k = 0; k < solved.size(); ++k) widen(result.impacts[k].restitution, each[k].value);
   if (result.restitution) widen(*result.restitution, c);
   const double mass_ratio = solved.front().solution.problem.fixed ? 0.0 : solved.front().solution.fit.state.mass_ratio;
   result.ambiguous.push_back({fmt::format("with drag of the air: c = {:.2f}", c), c, mass_ratio, -saved});

@@ -14,7 +14,7 @@ OptionTable describe(Options& o) {
   t.add({"noise", &o.noise, "m", "standard deviation of the depth at 1 m; it grows with the square of the depth (default: as in flat patches of the frame, at most 0.0015, a Kinect's)", kTiny, 0.1, {}});
   t.add({"gap", &o.gap, "m", "parts of one object are at most this far apart (default: from noise and pixel spacing)", kTiny, 1.0, {}});
   t.add({"fill", &o.fill, "1", "share of a box that must be surface or hidden", 0.1, 1.0, {}});
-  t.add({"stable_residual", &o.stable_residual, "1", "an arrangement with a smaller residual stands", 1e-9, 1.0, {}});
+  t.add({"stable_residual", &o.stable_residual, "1", "an arrangement with a smaller residual stands; --check decides exactly", 1e-9, 1.0, {}});
   t.add({"push", &o.push, "g", "horizontal acceleration that the scene must bear from any side, so that it stands clearly; 0 asks for balance alone", 0.0, 1.0, {}});
   t.add({"image_edges", &o.image_edges, "", "pull visible box edges to edges of the colour image", 0, 1, {}});
   t.add({"arrangements", &o.arrangements, "", "how many arrangements the search looks at for each part of the scene; the best found by then is kept", 1, 1e9, {}});
