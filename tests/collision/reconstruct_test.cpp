@@ -94,8 +94,10 @@ TEST(Reconstruct, AGivenFloorStaysAsGiven) {
   Shot shot = bouncing_ball(0.7);
   const Vec3 normal = Vec3(0.0, -1.0, 0.05).normalized();
   shot.bodies[1].normal = normal;
+  shot.floor = Plane{Vec3(0, -1, 0), -0.2};
   Context context;
   const Reconstruction r = reconstruct(shot, {}, context);
+  EXPECT_TRUE(std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("floor: not used") != std::string::npos; }));
   ASSERT_GE(r.impacts.size(), 2u);
   for (const Impact& impact : r.impacts) EXPECT_LT((r.T_world_camera.rotation.transpose() * impact.normal - normal).norm(), 1e-6);
 }

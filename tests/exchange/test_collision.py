@@ -51,7 +51,8 @@ class Collision(unittest.TestCase):
                 "bodies": [{"name": "ball", "sphere": 0.05, "mass": 0.1}, {"name": "floor", "fixed": True, "normal": [0, -1, 0]}],
                 "orientations": [{"body": "ball", "frame": 3, "q": [1, 0, 0, 0]}]}
         check.validate(shot)
-        for change in ({"observations": "obs.json"}, {"vidoe": 1}, {"fps": 0}, {"bodies": shot["bodies"][:1]}, {"camera": {"fx": 900}},
+        check.validate({**shot, "camera": {"width": 1280, "height": 720}})
+        for change in ({"observations": "obs.json"}, {"vidoe": 1}, {"fps": 0}, {"camera": {"width": 1280}}, {"bodies": shot["bodies"][:1]}, {"camera": {"fx": 900}},
                        {"bodies": [{"name": "ball", "sphere": 400}, shot["bodies"][1]]}):
             self.assertFalse(check.is_valid({**shot, **change}), change)
 
