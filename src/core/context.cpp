@@ -3,8 +3,11 @@
 #include "unseen/core/context.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 #include "unseen/core/error.h"
 
@@ -64,7 +67,7 @@ void parallel_blocks(const Context& context, std::size_t count, std::size_t grai
         tbb::simple_partitioner());
   };
   if (context.threads > 0) {
-    tbb::task_arena(context.threads).execute(run);
+    tbb::task_arena(std::min(context.threads, tbb::info::default_concurrency())).execute(run);  // asked for more, TBB prints a warning
   } else {
     run();
   }
