@@ -56,7 +56,7 @@ interactions::Pose root_centred(const interactions::Pose& pose);
 /// The last number in a text, below ten million; −1 if there is none.
 int last_number(const std::string& text);
 
-/// The initial 3D poses of "lifted" become `local` of the detections they stand beside.
+/// The initial 3D poses of "lifted" become `local` of the detections they stand beside. Throws InputError if they cannot be metres.
 void read_lifted(const std::filesystem::path& file, std::vector<interactions::Detection>& detections);
 
 /// A take's camera as its file has it: fx = 0 if only the field of view is known, width = 0 if no size is.
