@@ -53,7 +53,7 @@ std::vector<Mask> read_masks(const JsonField& json, const fs::path& folder, cons
     field.allow_only({"category", "image"});
     (void)field["image"];
     Mask mask = {field["category"].text(), camera.width, camera.height, {}};
-    for (const std::int32_t value : io::read_masks(io::named_file(field, "image", folder), camera)) mask.inside.push_back(value != 0);
+    for (const std::int32_t value : io::read_masks(io::named_file(field, "image", folder), camera, "the take's picture")) mask.inside.push_back(value != 0);
     if (superclass_of(mask.category) == Superclass::other)
       remarks.push_back(fmt::format("{} says nothing: \"{}\" is none of {}", field.path(), mask.category, fmt::join(kCategories.begin(), kCategories.end() - 1, ", ")));
     masks.push_back(std::move(mask));
