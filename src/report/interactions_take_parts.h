@@ -74,6 +74,8 @@ inline constexpr PictureSize kUsualPicture = {1920, 1080};
 /// The size as given, or as the joints' file says, or, with a remark, guessed: from the principal point, or from where joints are.
 PictureSize picture_size(const GivenCamera& given, const JointFile* joints, std::vector<std::string>& remarks);
 Camera resolved_camera(const GivenCamera& given, const PictureSize& size);
+/// Throws InputError if all joints are shares of the picture, not pixels.
+void check_pixels(const std::vector<interactions::Detection>& detections, const std::string& source);
 /// Remarks on it if joints lie outside the picture in most detections.
 void remark_on_places(interactions::Take& take);
 

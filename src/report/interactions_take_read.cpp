@@ -99,6 +99,7 @@ Take read_take(const fs::path& path) {
   if (json.has("lifted")) read_lifted(io::named_file(json, "lifted", folder), joints.detections);
   take.detections = std::move(joints.detections);
   tidy_detections(take, place.string());
+  check_pixels(take.detections, place.string());
   remark_on_places(take);
   if (json.has("up")) take.up = read_direction(json["up"]);
   if (json.has("camera_height")) take.camera_height = json["camera_height"].number(0.01, 100.0);
