@@ -26,14 +26,30 @@ std::string command_name(const CLI::App& app) {
   return name;
 }
 
+/// Throws InputError if something printed did not arrive.
+void flush_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw InputError("standard output", "text", "no room, or nobody to read it", "a place to write to");
+}
+
+/// Prints what --help and --version ask for.
+int print_help(const CLI::App& app, const CLI::Success& asked) {
+  try {
+    const int code = app.exit(asked);
+    flush_output();
+    return code;
+  } catch (const InputError& e) {
+    return report(kBadInput, e.what());
+  }
+}
+
 /// Runs what the command line asks for and turns every outcome into an exit code.
 int run(const CLI::App& app, const std::vector<Command>& commands) {
   try {
     for (const Command& command : commands)
       if (command.app->parsed()) {
         const int code = command.run();
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-          throw InputError("standard output", "text", "no room, or nobody to read it", "a place to write to");
+        flush_output();
         return code;
       }
     throw UsageError("a subcommand is missing");
@@ -77,7 +93,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
-    return app.exit(e);
+    return print_help(app, e);
   } catch (const CLI::ParseError& e) {
     return report(kUsage, fmt::format("{}; see {} --help", e.what(), command_name(app)));
   }

@@ -37,8 +37,18 @@ void open_in_browser(const std::string& page) {
     throw InputError(page, "--open", "no program that opens it", "xdg-open; the page itself is written");
 }
 
+/// A page replaces nothing but a page: no file of a result, nor what a result was made from.
+void check_page(const std::filesystem::path& page) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(page, error);  // what a link leads to
+  const std::string ending = target.extension().string();
+  if (std::filesystem::is_regular_file(target, error) && ending != ".html" && ending != ".htm")
+    throw InputError(kCommandLine, "-o", fmt::format("{}, a file that is no page", page.string()), "a name that ends in .html, or of no file");
+}
+
 int run(ViewArguments& args) {
   require(args.first, "OUT");
+  if (!args.page.empty()) check_page(args.page);
   Session session(args.common);
   Summary summary;
   std::vector<std::string> scenes;
@@ -74,7 +84,7 @@ Command add_view(CLI::App& app) {
   CLI::App* sub = app.add_subcommand("view", "Write the page of a result again, or one that shows two side by side");
   sub->add_option("OUT", args->first, "the folder of a result");
   sub->add_option("OTHER", args->second, "the folder of another one, to be shown beside it");
-  sub->add_option("-o", args->page, "the page to write (default OUT/report.html, for two results OUT/compare.html)")->type_name("PAGE");
+  sub->add_option("-o", args->page, "the page to write (default OUT/report.html, for two results OUT/compare.html); of files that are there, only .html is replaced")->type_name("PAGE");
   sub->add_flag("--open", args->open, "open it in the browser");
   add_flags(*sub, args->common);
   sub->footer("Examples:\n  unseen view out --open\n  unseen view out_5cm out_10cm -o compare.html");

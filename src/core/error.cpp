@@ -4,13 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "core/shortened.h"
+
 namespace unseen {
 namespace {
 
 /// Hostile input must not break the one-line promise or flood a terminal.
 std::string one_line(std::string text) {
   constexpr std::size_t kLongest = 300;
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "…";
+  text = shortened(std::move(text), kLongest);
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   return text;
@@ -26,6 +28,12 @@ std::string message(const std::string& source, const std::string& field, const s
 }
 
 }  // namespace
+
+std::string shortened(std::string text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0) == 0x80) --most;  // where the last character began
+  return text.substr(0, most) + "…";
+}
 
 InputError::InputError(std::string source_, std::string field_, std::string found_, std::string expected_)
     : std::runtime_error(message(source_, field_, found_, expected_)),

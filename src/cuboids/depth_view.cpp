@@ -33,11 +33,9 @@ DepthView::DepthView(const RgbdFrame& frame, const RigidTransform& T_world_camer
   height_ = std::clamp(static_cast<int>(std::sqrt(directions / 2.0)), kMinSphereHeight, kMaxSphereHeight);
   width_ = 2 * height_;
   depth_.assign(static_cast<std::size_t>(width_) * height_, 0.0f);
-  // The camera of a cloud stands at its viewpoint and is turned like the cloud.
-  const Vec3 viewpoint = frame.cloud.viewpoint.value_or(Vec3::Zero());
-  for (const Vec3& p : frame.cloud.positions) {
-    if (!p.allFinite()) continue;
-    const Pixel pixel = project(T_world_camera_ * (p - viewpoint));
+  for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
+    if (!frame.cloud.positions[i].allFinite()) continue;
+    const Pixel pixel = project(T_world_camera_ * frame.cloud_point(i));
     if (pixel.index < 0) continue;
     float& depth = depth_[pixel.index];
     if (depth == 0.0f || pixel.depth < depth) depth = static_cast<float>(pixel.depth);

@@ -202,9 +202,8 @@ std::vector<Vec3> thinned(const std::vector<Vec3>& points) {
 Measured measured_points(const RgbdFrame& frame) {
   Measured m;
   if (frame.is_fused()) {
-    const Vec3 viewpoint = frame.cloud.viewpoint.value_or(Vec3::Zero());
-    for (const Vec3& p : frame.cloud.positions)
-      if (p.allFinite()) m.points.push_back(p - viewpoint);
+    for (std::size_t i = 0; i < frame.cloud.size(); ++i)
+      if (frame.cloud.positions[i].allFinite()) m.points.push_back(frame.cloud_point(i));
     m.points = thinned(m.points);
     return m;
   }

@@ -138,7 +138,7 @@ PointCloud cloud_in_world(const RgbdFrame& frame, const RigidTransform& T_world_
   if (frame.is_fused()) {
     for (std::size_t i = 0; i < frame.cloud.size(); ++i) {
       if (!frame.cloud.positions[i].allFinite()) continue;
-      out.positions.push_back(T_world_camera * frame.cloud.positions[i]);
+      out.positions.push_back(T_world_camera * frame.cloud_point(i));
       if (!frame.cloud.colors.empty()) out.colors.push_back(frame.cloud.colors[i]);
     }
     return out;

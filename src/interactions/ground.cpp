@@ -50,6 +50,25 @@ bool is_turned(const Take& take, double roll) {
   return turned > upright;
 }
 
+/// Do most 3D poses, which are in the camera's axes, not stand along `up`?
+bool most_lie(const Take& take, const Vec3& up) {
+  const double upright_cosine = std::sqrt(0.5);
+  int upright = 0, lying = 0;
+  for (const Detection& d : take.detections) {
+    if (!d.local || d.confidence[pelvis] < kSeen || d.confidence[thorax] < kSeen) continue;
+    const Vec3 torso = d.local->col(thorax) - d.local->col(pelvis);
+    if (torso.norm() > 0) ++(torso.dot(up) > upright_cosine * torso.norm() ? upright : lying);
+  }
+  return lying > upright;
+}
+
+/// Are most feet seen above the horizon, where no floor can be? `slope` is the tangent of the camera's pitch.
+bool stand_above_horizon(const std::vector<Foot>& feet, double slope) {
+  constexpr double kClearly = 0.05;  // a tangent
+  const auto above = std::count_if(feet.begin(), feet.end(), [&](const Foot& foot) { return foot.below + slope < -kClearly; });
+  return 2 * static_cast<std::size_t>(above) > feet.size();
+}
+
 /// What cameras are like before anybody is seen: means and standard deviations.
 struct Usual {
   double height = kUsualHeight, height_sd = kHeightSd;  ///< m, above ankles
@@ -130,6 +149,10 @@ GroundStart find_ground(const Take& take, Context& context) {
     if (const auto tilted = tilted_floor(take, start, context)) start = *tilted;
   if (std::abs(ground.pitch) < kSteepest && is_turned(take, ground.roll))
     context.warn(take.up ? "most people are not upright in the picture: \"up\" may be wrong" : "most people are not upright in the picture: if it is turned, say so by \"up\"");
+  else if (take.up && stand_above_horizon(feet, usual.slope))
+    context.warn("most feet are seen above the horizon: \"up\" may be wrong");
+  else if (take.up && most_lie(take, *take.up))
+    context.warn("most 3D poses do not stand upright: \"up\" may be wrong");
   if (feet.empty() && !take.camera_height)
     context.warn(fmt::format("nobody is seen upright with feet on the floor: the camera's height is a guess, {:.1f} m", ground.camera_height));
   return start;

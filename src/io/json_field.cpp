@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/shortened.h"
 #include "unseen/core/error.h"
 
 namespace unseen::io {
@@ -144,8 +145,7 @@ void JsonField::fail(const std::string& expected) const {
   } else if (value_->is_object()) {
     found = "an object";
   } else {
-    found = value_->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (found.size() > kLongest) found = found.substr(0, kLongest) + "…";
+    found = shortened(value_->dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), kLongest);
   }
   throw InputError(source_, path_, found, expected);
 }

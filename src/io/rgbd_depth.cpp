@@ -4,12 +4,14 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <new>
 #include <opencv2/imgcodecs.hpp>
 
 #include "io/file_bytes.h"
 #include "io/image.h"
+#include "io/quiet_opencv.h"
 #include "io/readers.h"
 #include "io/rgbd_parts.h"
 #include "io/text.h"
@@ -18,7 +20,16 @@
 namespace unseen::io {
 namespace {
 
+/// Nothing reaches std::cerr while it lives: imdecode tells there what it caught itself.
+struct MutedErrors {
+  const std::ios_base::iostate state = std::cerr.rdstate();
+  MutedErrors() { std::cerr.setstate(std::ios_base::badbit); }
+  ~MutedErrors() { std::cerr.clear(state); }
+};
+
 cv::Mat decode_tiff(std::string_view bytes, const std::string& name) {
+  const QuietOpenCv quiet;
+  const MutedErrors muted;
   cv::Mat image;
   try {
     const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));

@@ -41,8 +41,8 @@ StoredDepth read_exr_depth(std::string_view bytes, const std::string& name);
 
 /// sRGB, row by row; must have the size of the depth image.
 std::vector<std::array<std::uint8_t, 3>> read_color(const std::filesystem::path& path, const Camera& camera);
-/// An object a pixel: grey values, or one object a colour. Must have the size of the depth image.
-std::vector<std::int32_t> read_masks(const std::filesystem::path& path, const Camera& camera);
+/// An object a pixel: grey values, or one object a colour. Must have the camera's size; messages say whose it is.
+std::vector<std::int32_t> read_masks(const std::filesystem::path& path, const Camera& camera, const std::string& whose = "the depth image");
 
 /// Focal lengths and principal point of "camera", or of an intrinsics file (fx, fy, cx, cy or Open3D's
 /// intrinsic_matrix).

@@ -12,18 +12,18 @@
 namespace unseen::io {
 namespace {
 
-cv::Mat read_image(const std::filesystem::path& path, const Camera& camera) {
+cv::Mat read_image(const std::filesystem::path& path, const Camera& camera, const std::string& whose) {
   const cv::Mat image = decode_image(FileBytes::open(path)->view(), path.string());
   if (image.cols != camera.width || image.rows != camera.height)
     throw InputError(path.string(), "size", fmt::format("{} x {} pixels", image.cols, image.rows),
-                     fmt::format("{} x {}, as the depth image has", camera.width, camera.height));
+                     fmt::format("{} x {}, as {} has", camera.width, camera.height, whose));
   return image;
 }
 
 }  // namespace
 
 std::vector<std::array<std::uint8_t, 3>> read_color(const std::filesystem::path& path, const Camera& camera) {
-  cv::Mat image = read_image(path, camera);
+  cv::Mat image = read_image(path, camera, "the depth image");
   if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / 257.0);
   std::vector<std::array<std::uint8_t, 3>> colors;
   colors.reserve(image.total());
@@ -40,8 +40,8 @@ std::vector<std::array<std::uint8_t, 3>> read_color(const std::filesystem::path&
   return colors;
 }
 
-std::vector<std::int32_t> read_masks(const std::filesystem::path& path, const Camera& camera) {
-  const cv::Mat image = read_image(path, camera);
+std::vector<std::int32_t> read_masks(const std::filesystem::path& path, const Camera& camera, const std::string& whose) {
+  const cv::Mat image = read_image(path, camera, whose);
   if (image.depth() == CV_16U && image.channels() != 1)
     throw InputError(path.string(), "pixels", "colours of 16 bits", "grey values or 8-bit colours, 0 = no object");
   std::vector<std::int32_t> masks;

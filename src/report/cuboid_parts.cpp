@@ -151,7 +151,7 @@ DepthPoints depth_points(const RgbdFrame& frame, const RigidTransform& T_world_c
     const std::size_t step = std::max<std::size_t>(1, (all.size() + limit - 1) / limit);
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (!all[i].allFinite()) continue;
-      if (points.seen++ % step == 0) add(all[i], frame.cloud.colors, i);
+      if (points.seen++ % step == 0) add(frame.cloud_point(i), frame.cloud.colors, i);
     }
     return points;
   }

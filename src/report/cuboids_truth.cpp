@@ -7,10 +7,6 @@
 #include "report/json_write.h"
 
 namespace unseen::report {
-namespace {
-
-}  // namespace
-
 std::string cuboids_truth_json(const cuboids::SynthView& view, const OptionTable& options) {
   const cuboids::Truth& truth = view.truth;
   Json json = made_by("synth cuboids", options);

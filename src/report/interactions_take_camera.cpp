@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/interactions_take_parts.h"
+#include "unseen/core/error.h"
 
 namespace unseen::report {
 namespace {
@@ -66,6 +67,14 @@ Camera resolved_camera(const GivenCamera& given, const PictureSize& size) {
   c.cx = 0.5 * (size.width - 1);
   c.cy = 0.5 * (size.height - 1);
   return c;
+}
+
+void check_pixels(const std::vector<Detection>& detections, const std::string& source) {
+  constexpr double kMostShare = 2.0;  // of the picture: what a detector guesses outside it counts, too
+  for (const Detection& d : detections)
+    for (int j = 0; j < kJoints; ++j)
+      if (d.confidence[j] > 0.0 && !(d.pixels.col(j).cwiseAbs().maxCoeff() < kMostShare)) return;
+  throw InputError(source, "joints", "coordinates within 0…1", "pixels");
 }
 
 void remark_on_places(Take& take) {

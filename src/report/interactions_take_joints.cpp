@@ -8,6 +8,7 @@
 #include "io/text.h"
 #include "report/i3db_parts.h"
 #include "report/interactions_take_parts.h"
+#include "unseen/core/error.h"
 
 namespace unseen::report {
 
@@ -16,6 +17,27 @@ using namespace interactions;
 namespace {
 
 constexpr std::array<std::array<Joint, 3>, 3> kBetween = {{{pelvis, left_hip, right_hip}, {thorax, left_shoulder, right_shoulder}, {neck, thorax, head}}};
+
+/// Along the bones from the head down to an ankle, m: the same in all postures.
+double stature_of(const Pose& pose) {
+  constexpr std::array<Joint, 7> kDown = {head, neck, thorax, pelvis, right_hip, right_knee, right_ankle};
+  double length = 0;
+  for (std::size_t i = 1; i < kDown.size(); ++i) length += (pose.col(kDown[i]) - pose.col(kDown[i - 1])).norm();
+  return length;
+}
+
+/// Throws InputError if the poses cannot be metres; those of no size say nothing.
+void check_statures(const std::filesystem::path& file, const std::vector<Detection>& detections) {
+  constexpr double kSmallest = 0.3, kTallest = 3.0;  // m
+  std::vector<double> statures;
+  for (const Detection& d : detections)
+    if (const double stature = d.local ? stature_of(*d.local) : 0.0; stature > 0.0) statures.push_back(stature);
+  if (statures.empty()) return;
+  const auto middle = statures.begin() + static_cast<std::ptrdiff_t>(statures.size() / 2);
+  std::nth_element(statures.begin(), middle, statures.end());
+  if (*middle < kSmallest || *middle > kTallest)
+    throw InputError(file.string(), "frames", fmt::format("people {:.4g} m tall", *middle), fmt::format("{} to {} m: is the unit metres?", kSmallest, kTallest));
+}
 
 }  // namespace
 
@@ -75,6 +97,7 @@ void read_lifted(const std::filesystem::path& file, std::vector<Detection>& dete
       at->second[p]->local = root_centred(pose);
     }
   }
+  check_statures(file, detections);
 }
 
 }  // namespace unseen::report

@@ -56,7 +56,7 @@ interactions::Pose root_centred(const interactions::Pose& pose);
 /// The last number in a text, below ten million; −1 if there is none.
 int last_number(const std::string& text);
 
-/// The initial 3D poses of "lifted" become `local` of the detections they stand beside.
+/// The initial 3D poses of "lifted" become `local` of the detections they stand beside. Throws InputError if they cannot be metres.
 void read_lifted(const std::filesystem::path& file, std::vector<interactions::Detection>& detections);
 
 /// A take's camera as its file has it: fx = 0 if only the field of view is known, width = 0 if no size is.
@@ -74,6 +74,8 @@ inline constexpr PictureSize kUsualPicture = {1920, 1080};
 /// The size as given, or as the joints' file says, or, with a remark, guessed: from the principal point, or from where joints are.
 PictureSize picture_size(const GivenCamera& given, const JointFile* joints, std::vector<std::string>& remarks);
 Camera resolved_camera(const GivenCamera& given, const PictureSize& size);
+/// Throws InputError if all joints are shares of the picture, not pixels.
+void check_pixels(const std::vector<interactions::Detection>& detections, const std::string& source);
 /// Remarks on it if joints lie outside the picture in most detections.
 void remark_on_places(interactions::Take& take);
 

@@ -53,7 +53,7 @@ std::vector<Mask> read_masks(const JsonField& json, const fs::path& folder, cons
     field.allow_only({"category", "image"});
     (void)field["image"];
     Mask mask = {field["category"].text(), camera.width, camera.height, {}};
-    for (const std::int32_t value : io::read_masks(io::named_file(field, "image", folder), camera)) mask.inside.push_back(value != 0);
+    for (const std::int32_t value : io::read_masks(io::named_file(field, "image", folder), camera, "the take's picture")) mask.inside.push_back(value != 0);
     if (superclass_of(mask.category) == Superclass::other)
       remarks.push_back(fmt::format("{} says nothing: \"{}\" is none of {}", field.path(), mask.category, fmt::join(kCategories.begin(), kCategories.end() - 1, ", ")));
     masks.push_back(std::move(mask));
@@ -99,6 +99,7 @@ Take read_take(const fs::path& path) {
   if (json.has("lifted")) read_lifted(io::named_file(json, "lifted", folder), joints.detections);
   take.detections = std::move(joints.detections);
   tidy_detections(take, place.string());
+  check_pixels(take.detections, place.string());
   remark_on_places(take);
   if (json.has("up")) take.up = read_direction(json["up"]);
   if (json.has("camera_height")) take.camera_height = json["camera_height"].number(0.01, 100.0);

@@ -28,6 +28,15 @@ def png(image):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b"")
 
 
+def tiff(image):
+    """uint16 grey as a TIFF of one strip."""
+    height, width = image.shape
+    data = image.astype("<u2").tobytes()
+    fields = [(256, width), (257, height), (258, 16), (259, 1), (262, 1), (273, 8 + 2 + 12 * 9 + 4), (277, 1), (278, height), (279, len(data))]
+    entries = b"".join(tag.to_bytes(2, "little") + b"\4\0\1\0\0\0" + value.to_bytes(4, "little") for tag, value in fields)
+    return b"II*\0\x08\0\0\0" + len(fields).to_bytes(2, "little") + entries + bytes(4) + data
+
+
 def render(boxes=BOXES, pitch=0.55, height=0.8, noise=0.0005, seed=3):
     """Depth (m), object of each pixel (0 = table, −1 = nothing) and the up direction in the camera's coordinates."""
     cos, sin = numpy.cos(pitch), numpy.sin(pitch)

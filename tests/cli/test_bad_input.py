@@ -113,10 +113,10 @@ class BadInput(CliTest):
     def test_standard_output_without_room(self):
         self.room_file()
         with open("/dev/full", "w") as full:
-            run = subprocess.run([PROGRAM, "planes", "room.ply", "-o", "new", "--json"], cwd=self.folder, stdout=full,
-                                 stderr=subprocess.PIPE, text=True, timeout=60)
-        self.assertEqual(run.returncode, 3)
-        self.assertIn("standard output", run.stderr)
+            for arguments in (["planes", "room.ply", "-o", "new", "--json"], ["--help"], ["planes", "--help"], ["--version"]):
+                run = subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+                self.assertEqual(run.returncode, 3, arguments)
+                self.assertIn("standard output", run.stderr)
 
     def test_result_of_another_kind(self):
         self.write("truth.json", "[" * 100000)

@@ -251,6 +251,11 @@ class Refused(CliTest):
         (self.folder / "color.png").write_bytes(frames.png(numpy.zeros((48, 64, 3), numpy.uint8)))
         self.assert_refused("depth.png", "none of 3072 pixels")
 
+    def test_truncated_tiff(self):
+        frames.write_frame(self.folder, depth="depth.tif")
+        (self.folder / "depth.tif").write_bytes(frames.tiff(numpy.ones((48, 64), numpy.uint16))[:-3000])
+        self.assert_refused("depth.tif", "broken or truncated")
+
     def test_wrong_units(self):
         frames.write_frame(self.folder, depth_scale=1)
         self.assert_refused("depth.png", "a scene of", "depth_scale 1000")

@@ -114,6 +114,18 @@ class View(CliTest):
         self.assertEqual([s.header["facts"][-1]["value"] for s in scenes_of(self.folder / "both.html")], ["0.2 m", "0.05 m"])
         self.assertEqual({**before, "both.html": (self.folder / "both.html").read_bytes()}, contents(self.folder))
 
+    def test_replaces_nothing_but_a_page(self):
+        self.solve(room())
+        (self.folder / "link.html").symlink_to("out/result.json")
+        before = contents(self.folder)
+        for page in ("out/result.json", "out/points.ply", "room.ply", "link.html"):
+            self.assert_one_line(self.unseen("view", "out", "-o", page), 2, page, ".html")
+        self.assertEqual(contents(self.folder), before)
+        (self.folder / "old.html").write_text("an older page")
+        for page in ("old.html", "new"):
+            self.assertEqual(self.unseen("view", "out", "-o", page).returncode, 0)
+            self.assertEqual(len(scenes_of(self.folder / page)), 1)
+
     def test_far_coordinates_keep_their_millimetres(self):
         far = numpy.array([500000.0, 5400000.0, 120.0])
         out = self.solve(room() + far)

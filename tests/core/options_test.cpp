@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/shortened.h"
 #include "unseen/core/error.h"
 
 namespace unseen {
@@ -17,6 +18,18 @@ struct Sample {
   std::string solver = "local";
   std::vector<double> angles = {90};
 };
+
+TEST(Shortened, CutsNoCharacterInTwo) {
+  EXPECT_EQ(shortened("abc", 3), "abc");
+  EXPECT_EQ(shortened("abcd", 3), "abc…");
+  EXPECT_EQ(shortened("aüü", 2), "a…");
+  EXPECT_EQ(shortened("aüü", 3), "aü…");
+  EXPECT_EQ(shortened("𝄞", 3), "…");
+  std::string word;
+  for (int i = 0; i < 400; ++i) word += "ü";
+  const std::string message = InputError("a", "", word, "").what();  // 9 bytes before the first ü: one lies across the 300th
+  EXPECT_EQ(message.size(), 299 + std::string("…").size());
+}
 
 OptionTable table_of(Sample& s) {
   OptionTable table;

@@ -100,6 +100,21 @@ TEST(CuboidParts, PointsOfADepthImageAreWhereTheCameraSawThem) {
   EXPECT_NEAR((pose.inverse() * points.positions[0]).x(), -1.5 / 100 * 2, 1e-12);
 }
 
+TEST(CuboidParts, PointsOfACloudCountFromItsViewpoint) {
+  RgbdFrame here, there;
+  here.cloud.positions = {{1, 2, 3}, {-1, 0.5, 4}};
+  here.cloud.viewpoint = Vec3::Zero();
+  there.cloud.viewpoint = Vec3(5, 2, -1);
+  for (const Vec3& p : here.cloud.positions) there.cloud.positions.push_back(p + *there.cloud.viewpoint);
+  const RigidTransform pose{Eigen::AngleAxisd(0.3, Vec3::UnitX()).toRotationMatrix(), {0, 0, 2}};
+  const DepthPoints points = depth_points(here, pose, 100), moved = depth_points(there, pose, 100);
+  ASSERT_EQ(moved.positions.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_LT((points.positions[i] - pose * here.cloud.positions[i]).norm(), 1e-12);
+    EXPECT_LT((moved.positions[i] - points.positions[i]).norm(), 1e-12);
+  }
+}
+
 TEST(CuboidParts, SupportsAreDrawnUnderAllBoxes) {
   const cuboids::Completion c = cuboids::sample_tower(5, 0.04);
   const std::vector<Vec3> polygon = polygon_of(c.supports[0], c);

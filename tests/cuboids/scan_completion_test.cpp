@@ -140,6 +140,28 @@ TEST(ScanCompletion, LaysTheSofaWhereItStands) {
   expect_found(complete_scan(scene.frame, scene.completion, cloud_of(samples(sofa(), 60000, 1)), {}, context), T);
 }
 
+/// The frame as a cloud, in the camera's axes, that was seen from `viewpoint`.
+RgbdFrame fused(const RgbdFrame& image, const Vec3& viewpoint) {
+  RgbdFrame out;
+  out.cloud.viewpoint = viewpoint;
+  const int w = image.camera.width;
+  for (int i = 0; i < static_cast<int>(image.depth.size()); ++i)
+    if (image.depth[i] > 0.0f) out.cloud.positions.push_back(image.camera.unproject(i % w, i / w, image.depth[i]) + viewpoint);
+  return out;
+}
+
+TEST(ScanCompletion, FindsTheSameInACloudSeenFromElsewhere) {
+  const RigidTransform T = upright(0.35, {0.1, 0.2, 0.0});
+  const Scene scene(chair(), T, 0.01);
+  const PointCloud model = cloud_of(samples(chair(), 40000, 1));
+  for (const Vec3& viewpoint : {Vec3(0, 0, 0), Vec3(5, 2, -1)}) {
+    Context context;
+    const ScanCompletion found = complete_scan(fused(scene.frame, viewpoint), scene.completion, model, {}, context);
+    expect_found(found, T);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(found.completed.labels.begin(), found.completed.labels.end(), 1)), model.size());
+  }
+}
+
 TEST(ScanCompletion, SaysIfNothingIsAlike) {
   const Scene scene(chair(), upright(0.3, {0, 0.2, 0}), 0.0);
   Context context;

@@ -64,6 +64,36 @@ TEST(GivenGround, TopOfThePictureIsAheadOfACameraThatLooksStraightDown) {
   EXPECT_EQ(find_ground(take, context).ground.roll, 0);
 }
 
+bool doubts_up(const Take& take) {
+  Context context;
+  find_ground(take, context);
+  for (const std::string& warning : context.take_warnings())
+    if (warning.find("\"up\" may be wrong") != std::string::npos) return true;
+  return false;
+}
+
+TEST(GivenGround, IsDoubtedIfFeetAreSeenWhereNoFloorCanBe) {
+  Take take = walking(4);
+  for (const Vec3& up : {Vec3(0, -1, 0), Vec3(0, -1, -0.1), Vec3(0.05, -1, -0.3)}) {
+    take.up = up.normalized();
+    EXPECT_FALSE(doubts_up(take)) << up.transpose();
+  }
+  for (const Vec3& up : {Vec3(0, 0, 1), Vec3(0, -1, 1), Vec3(0, 1, 0)}) {
+    take.up = up.normalized();
+    EXPECT_TRUE(doubts_up(take)) << up.transpose();
+  }
+}
+
+TEST(GivenGround, IsDoubtedIf3DPosesLie) {
+  SynthOptions options;
+  options.seconds = 4;
+  Take take = simulate(options).take;
+  take.up = Vec3(0, -1, -0.1).normalized();
+  EXPECT_FALSE(doubts_up(take));
+  take.up = Vec3(0, 0, -1);  // from above nobody would look upright: only their 3D poses tell
+  EXPECT_TRUE(doubts_up(take));
+}
+
 TEST(GivenGround, IsKept) {
   Take take = walking(4);
   Database database = build_database({simulate({}).truth}, {}, *std::make_unique<Context>());

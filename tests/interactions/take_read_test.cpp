@@ -275,6 +275,35 @@ TEST(TakeRead, HintsAreRead) {
   EXPECT_EQ(t.detections[0].local->norm(), 0);
 }
 
+TEST(TakeRead, Lifted3DPosesMustBeMetres) {
+  const Folder folder;
+  folder.write("joints.json", Json{coco_person(1)});
+  Json json = take("coco", "joints.json");
+  json["lifted"] = "lifted.json";
+  const auto path = folder.write("take.json", json);
+  const auto write = [&](double unit) {  // somebody upright, 0.1 m from joint to joint
+    Json pose = Json::array();
+    for (const double height : {-0.3, -0.2, -0.1, -0.1, -0.2, -0.3, 0.0, 0.3, 0.4, 0.5, 0.0, 0.1, 0.3, 0.3, 0.1, 0.0}) pose.push_back({0.0, -height * unit, 3.0 * unit});
+    folder.write("lifted.json", Json{{"frames", {{{"frame", 1}, {"people", {pose}}}}}});
+  };
+  write(2);
+  EXPECT_NEAR(read_take(path).detections[0].local->col(head).y(), -1.0, 1e-9);
+  write(2000);
+  expect_error(path, "lifted.json: frames: found people 1600 m tall, expected 0.3 to 3 m");
+  write(0.2);
+  expect_error(path, "found people 0.16 m tall");
+}
+
+TEST(TakeRead, JointsAreNoSharesOfThePicture) {
+  const Folder folder;
+  const auto path = folder.write("take.json", take("coco", "joints.json"));
+  Json person = coco_person(1);
+  for (std::size_t i = 0; i < person["keypoints"].size(); ++i)
+    if (i % 3 != 2) person["keypoints"][i] = person["keypoints"][i].get<double>() / 1000;
+  folder.write("joints.json", Json{person});
+  expect_error(path, "joints.json: joints: found coordinates within 0…1, expected pixels");
+}
+
 TEST(TakeRead, BadFieldsAreNamed) {
   const Folder folder;
   folder.write("joints.json", Json{coco_person(1)});
@@ -295,6 +324,8 @@ TEST(TakeRead, BadFieldsAreNamed) {
   Json bent = camera();
   bent["distortion"] = {0.1, 0, 0, 0};
   expect_error(with("camera", bent), "camera.distortion");
+  io::write_grey_png(folder.path() / "small.png", 4, 3, std::vector<std::uint16_t>(12, 7));
+  expect_error(with("masks", {{{"category", "couch"}, {"image", "small.png"}}}), "small.png: size: found 4 x 3 pixels, expected 1920 x 1080, as the take's picture has");
   expect_error(folder.path() / "none.json", "No such file");
   expect_error(folder.path(), "a folder");
 }

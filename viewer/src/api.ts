@@ -5,7 +5,7 @@
 //   select(structure, index)       select(null) clears
 //   selection()                    {structure, index} or null
 //   setLayer(id, bool)             setColor(structure, quantity)
-//   setSection(axis | null, value) 'x', 'y' or 'z'; value in scene coordinates
+//   setSection(axis | null, value) 'x', 'y' or 'z'; value in the coordinates of the first scene
 //   view(name)                     'perspective', 'top', 'front', 'side'
 //   fit()
 //   complete()                     a promise: all points are in the picture (large clouds follow in steps)

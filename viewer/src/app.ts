@@ -133,6 +133,15 @@ export class App {
     this.emit('time');
   }
 
+  /** Lays scenes of one place where they are to each other: each has an offset of its own. Scenes that lie apart are seen each by itself. */
+  align() {
+    const [first, ...others] = this.viewports;
+    for (const v of others) {
+      v.shift.fromArray(v.model.header.offset ?? [0, 0, 0]).sub(new THREE.Vector3(...(first!.model.header.offset ?? [0, 0, 0])));
+      if (!v.bounds.intersectsBox(first!.bounds)) v.shift.set(0, 0, 0);
+    }
+  }
+
   get box(): THREE.Box3 {
     const box = new THREE.Box3();
     for (const v of this.viewports) box.union(v.bounds);
@@ -155,7 +164,7 @@ export class App {
       clip.set(0, 0, 0, 1);
       if (axis) {
         clip[axis] = sign;
-        clip.w = sign * this.section.value;
+        clip.w = sign * (this.section.value - v.shift[axis]);
       }
       v.invalidate();
     }
@@ -180,7 +189,9 @@ export class App {
   }
 
   lookThrough(camera: CameraStructure) {
+    const view = this.scenes.find((s) => s.model?.structures.includes(camera));
     this.rig.through = poseOf(camera);
+    if (view?.viewport) this.rig.through.matrix.premultiply(new THREE.Matrix4().setPosition(view.viewport.shift));
     this.rig.changed();
     this.emit('view');
   }

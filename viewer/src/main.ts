@@ -54,6 +54,7 @@ async function start(root: HTMLElement): Promise<void> {
   if (app.scenes.length === 0) app.scenes.push({ error: 'There is no scene in this page.', selection: null, hover: null, relations: new Map() });
   app.rig.flat = app.scenes.some((v) => v.model) && app.scenes.every((v) => !v.model || v.model.header.flat === true);
   app.scenes.forEach((v, i) => addViewport(app, v, i));
+  app.align();
   app.active = Math.max(0, app.scenes.findIndex((v) => v.model));
   app.rig.setBounds(app.focus);
   app.time = app.timeRange?.start ?? 0;

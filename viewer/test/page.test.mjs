@@ -329,6 +329,31 @@ test('two scenes side by side move together', async () => {
   await close();
 });
 
+test('two scenes side by side lie where their offsets say, if they overlap', async () => {
+  const world = [[3, 1, 0], [9, 1, 0], [9, 6, 2], [3, 6, 2]];
+  const scene = (offset, places = world) => {
+    const b = new Buffers();
+    return encodeScene({
+      scene: 1, title: 'x', capability: 'planes', version: '0.2.0', command: '', facts: [], summary: { seconds: {}, energy: {}, counts: {}, warnings: [] }, options: [], input: {}, offset, tables: [],
+      structures: [{ id: 'lines', kind: 'lines', name: 'Lines', visible: true, vertices: b.plain(places.flatMap((p) => p.map((x, a) => x - offset[a])), 3), quantities: [] }],
+    }, b);
+  };
+  const placesOf = async (name, scenes) => {
+    const { page, errors, close } = await open(browser, name, pageOf(name, scenes));
+    const places = await page.evaluate(() => [0, 1].map((s) => {
+      const box = document.querySelectorAll('.stage canvas')[s].getBoundingClientRect();
+      return [0, 1].map((i) => window.unseen.project('lines', i, s)).flatMap((p) => [p.x - box.left, p.y - box.top]);
+    }));
+    assert.deepEqual(errors, []);
+    await close();
+    return places;
+  };
+  for (const [name, second] of [['near', scene([4, 2, 1])], ['far', scene([500003, 0, 0], world.map(([x, y, z]) => [x + 500003, y, z]))]]) {
+    const [a, b] = await placesOf(name, [scene([0, 0, 0]), second]);
+    a.forEach((x, i) => assert.ok(Math.abs(x - b[i]) < 0.5, `${name}: ${a} and ${b}`));
+  }
+});
+
 test('broken, newer and missing scenes say so', async () => {
   const newer = encodeScene({ scene: 99, title: 'x', structures: [] }, new Buffers());
   for (const [name, scenes, says] of [['broken', ['H4sIAAAA'], /damaged/], ['text', ['%%%'], /damaged/], ['newer', [newer], /version 99/], ['none', [], /no scene/]]) {

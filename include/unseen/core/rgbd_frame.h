@@ -40,6 +40,8 @@ struct RgbdFrame {
   PointCloud cloud;                         ///< fused cloud instead of depth; its viewpoint is set
 
   bool is_fused() const { return camera.width == 0; }
+  /// A point of the cloud in the camera's coordinates: the camera stands at the viewpoint and is turned like the cloud.
+  Vec3 cloud_point(std::size_t i) const { return cloud.positions[i] - cloud.viewpoint.value_or(Vec3::Zero()); }
 };
 
 }  // namespace unseen

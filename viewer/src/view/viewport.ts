@@ -29,7 +29,9 @@ export class Viewport {
   readonly canvas = document.createElement('canvas');
   readonly layers = new Map<string, Layer>();
   readonly shared = new SharedUniforms();
-  readonly bounds = new THREE.Box3();
+  /** From this scene's coordinates to those that the views share. */
+  readonly shift = new THREE.Vector3();
+  private readonly extent = new THREE.Box3();
   private readonly scene = new THREE.Scene();
   private readonly renderer: THREE.WebGLRenderer;
   private view!: View;
@@ -62,7 +64,7 @@ export class Viewport {
       const layer = this.layers.get(s.id);
       if (!layer) continue;
       this.scene.add(layer.object);
-      if (!layer.bounds.isEmpty()) this.bounds.union(layer.bounds);
+      if (!layer.bounds.isEmpty()) this.extent.union(layer.bounds);
     }
     this.canvas.tabIndex = 0;
     rig.onChange(() => this.invalidate());
@@ -116,6 +118,8 @@ export class Viewport {
     if (width < 1 || height < 1) return false;
     const camera = this.rig.camera(width / height);
     camera.layers.enableAll();
+    camera.matrixWorld.premultiply(new THREE.Matrix4().setPosition(this.shift.clone().negate()));
+    camera.matrixWorldInverse.copy(camera.matrixWorld).invert();
     const eye = new THREE.Vector3().setFromMatrixPosition(camera.matrixWorld);
     const forward = new THREE.Vector3(0, 0, -1).transformDirection(camera.matrixWorld);
     this.view = { camera, ortho: camera instanceof THREE.OrthographicCamera, eye, forward, width, height };
@@ -246,10 +250,15 @@ export class Viewport {
     this.invalidate();
   }
 
+  /** Where the scene is, in the coordinates that the views share. */
+  get bounds(): THREE.Box3 {
+    return this.extent.clone().translate(this.shift);
+  }
+
   /** What the view fits to. */
   get focus(): THREE.Box3 {
     const focus = this.model.header.focus;
-    return focus ? new THREE.Box3(new THREE.Vector3(...focus.low), new THREE.Vector3(...focus.high)) : this.bounds;
+    return focus ? new THREE.Box3(new THREE.Vector3(...focus.low), new THREE.Vector3(...focus.high)).translate(this.shift) : this.bounds;
   }
 
   /** Whether fading shows more than it takes: the scene is one seen from inside. */
