@@ -71,10 +71,14 @@ Camera resolved_camera(const GivenCamera& given, const PictureSize& size) {
 
 void check_pixels(const std::vector<Detection>& detections, const std::string& source) {
   constexpr double kMostShare = 2.0;  // of the picture: what a detector guesses outside it counts, too
+  bool seen = false;
   for (const Detection& d : detections)
-    for (int j = 0; j < kJoints; ++j)
-      if (d.confidence[j] > 0.0 && !(d.pixels.col(j).cwiseAbs().maxCoeff() < kMostShare)) return;
-  throw InputError(source, "joints", "coordinates within 0…1", "pixels");
+    for (int j = 0; j < kJoints; ++j) {
+      if (d.confidence[j] <= 0.0) continue;
+      if (!(d.pixels.col(j).cwiseAbs().maxCoeff() < kMostShare)) return;
+      seen = true;
+    }
+  if (seen) throw InputError(source, "joints", "coordinates within 0…1", "pixels");
 }
 
 void remark_on_places(Take& take) {
