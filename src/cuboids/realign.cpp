@@ -8,6 +8,7 @@
 #include "cuboids/box_fit.h"
 #include "cuboids/complete.h"
 #include "cuboids/depth_noise.h"
+#include "cuboids/supports.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -28,9 +29,18 @@ Observation observed(const RgbdFrame& frame, const Completion& scene, const Opti
   for (const Vec3& p : measured.points) seen.points.push_back(scene.T_world_camera * p);
   for (Vec3& n : seen.graph.normals) n = scene.T_world_camera.rotation * n;
   seen.support_of_point.assign(seen.points.size(), -1);
-  for (std::size_t i = 0; i < seen.points.size(); ++i)
-    for (std::size_t s = 0; s < scene.supports.size(); ++s)
-      if (scene.supports[s].plane.signed_distance(seen.points[i]) < kSideSigmas * seen.graph.sigma[i]) seen.support_of_point[i] = static_cast<int>(s);
+  for (std::size_t s = 0; s < scene.supports.size(); ++s) {
+    const Support& support = scene.supports[s];
+    const bool desk = support.kind == SupportKind::desk;  // what is below it is not its own
+    std::vector<Vec2> outline;
+    for (const Vec3& p : support.outline) outline.push_back(p.head<2>());
+    for (std::size_t i = 0; i < seen.points.size(); ++i) {
+      const double above = support.plane.signed_distance(seen.points[i]), near = kSideSigmas * seen.graph.sigma[i];
+      if (above >= near) continue;
+      if (desk && (above < -near || (!outline.empty() && !inside_outline(outline, seen.points[i].head<2>(), near)))) continue;
+      seen.support_of_point[i] = static_cast<int>(s);
+    }
+  }
   return seen;
 }
 

@@ -48,6 +48,17 @@ TEST(Realign, BringsBackWhatWasTurnedAndSizedWrong) {
   }
 }
 
+TEST(Realign, WhatIsLowerThanADeskIsNotItsOwn) {
+  const Scene scene = two_boxes();
+  Completion c = given(scene, radians(15.0), 0.05, 1);
+  c.supports.push_back({1, SupportKind::desk, {Vec3::UnitZ(), 0.5}, {{2, 2, 0.5}, {3, 2, 0.5}, {3, 3, 0.5}, {2, 3, 0.5}}});
+  Completion without = given(scene, radians(15.0), 0.05, 1);
+  Context context;
+  realign(render(scene), {}, c, context);
+  realign(render(scene), {}, without, context);
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) EXPECT_EQ(c.cuboids[i].initial.center, without.cuboids[i].initial.center) << i;
+}
+
 TEST(Realign, KeepsWhatExplainsItsPoints) {
   Scene scene;  // flush: the points of each fit the other's front too
   scene.boxes = {upright(-0.1, 0.7, 0, {0.2, 0.15, 0.2}, 0), upright(0.1, 0.7, 0, {0.2, 0.15, 0.2}, 0), upright(0.0, 0.7, 0.2, {0.25, 0.15, 0.1}, 0)};
