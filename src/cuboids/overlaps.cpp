@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSeenShrink = 0.15, kHiddenShrink = 0.5;  // of a size: what a face may give way, seen or not
 constexpr double kTowards = 0.5;                           // cosine: a face looks at the other body
+const double kFlush = std::cos(radians(10.0));             // between a face and the support that it lies on
 constexpr double kTouching = 1e-6;                         // m
 constexpr double kSlightly = 1e-3;                         // m: what an engine pushes apart unseen
 constexpr int kPasses = 4;                                 // one face that gives way may help several pairs
@@ -32,11 +33,23 @@ double depth_of(const Problem& problem, const std::vector<OrientedBox>& boxes, i
   return there ? std::max(0.0, -there->gap) : 0.0;
 }
 
+/// Whether a body stands on (leans at) a support with a face: to give way there would lift it off.
+bool bears_on_support(const Problem& problem, const std::vector<OrientedBox>& boxes, int body, int face) {
+  const Vec3 normal = face_normal(boxes[body - problem.supports_count()], face);
+  for (int support = 0; support < problem.supports_count(); ++support) {
+    const double tolerance = problem.pair_tolerance(support, body);
+    const auto there = interface_of(problem.supports[support], solid_of(boxes[body - problem.supports_count()]), tolerance);
+    if (there && std::abs(there->gap) <= tolerance && std::abs(there->normal.dot(normal)) > kFlush) return true;
+  }
+  return false;
+}
+
 /// The least move of one face of `body` that ends its overlap, `towards` being where the other body lies.
 void propose_retreats(const DepthView& view, const Problem& problem, std::vector<OrientedBox> boxes, int a, int b, int body,
                       const Vec3& towards, double depth, Retreat& best) {
   OrientedBox& box = boxes[body - problem.supports_count()];
   const OrientedBox before = box;
+  const int other = a == body ? b : a;
   for (int face = 0; face < 6; ++face) {
     const Vec3 normal = face_normal(before, face);
     const double cosine = normal.dot(towards), size = 2.0 * before.half_size[face / 2];
@@ -44,6 +57,7 @@ void propose_retreats(const DepthView& view, const Problem& problem, std::vector
     const bool seen = normal.dot(view.viewpoint() - before.center) > before.half_size[face / 2];
     const double length = depth / cosine, share = length / (size * (seen ? kSeenShrink : kHiddenShrink));
     if (share > 1.0 || share >= best.share) continue;
+    if (!problem.is_support(other) && bears_on_support(problem, boxes, body, face)) continue;
     box = extended(before, face, -length);
     if (depth_of(problem, boxes, a, b) <= kTouching) best = {body - problem.supports_count(), face, length, share};
     box = before;

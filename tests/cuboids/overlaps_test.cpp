@@ -51,6 +51,13 @@ TEST(Overlaps, TooDeepMakeOneRigidBody) {
   EXPECT_EQ(problem.cuboids[1].initial.half_size, before.half_size);
 }
 
+TEST(Overlaps, LiftNothingOffTheGround) {
+  // A flat thing that seems to reach under a box; the box was seen to stand on the ground.
+  Problem problem = problem_of({box({0, 0, 0.05}, {0.2, 0.2, 0.1}), box({-0.19, 0, 0.01}, {0.3, 0.1, 0.02})});
+  part_overlaps(view_of(2.9f), problem);
+  EXPECT_NEAR(problem.cuboids[0].initial.half_size.z(), 0.05, 1e-9);
+}
+
 TEST(Overlaps, OfKnownObjectsJoinNothing) {
   Problem problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.05, 0, 0.12}, {0.16, 0.16, 0.16}, 0.5)});
   problem.cuboids[0].label = "1";
