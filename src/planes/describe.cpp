@@ -99,6 +99,22 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
   return renumber;
 }
 
+std::optional<int> flat_axis(const Arrangement& arrangement) {
+  if (!arrangement.two_dimensional) return std::nullopt;
+  const auto line = std::find_if(arrangement.planes.begin(), arrangement.planes.end(), [](const ArrangedPlane& p) { return p.segment.has_value(); });
+  if (line == arrangement.planes.end()) return 2;
+  const Vec3 across = line->plane.normal.cross((*line->segment)[1] - (*line->segment)[0]).cwiseAbs();
+  int axis = 2;
+  for (const int a : {1, 0})
+    if (across[a] > across[axis]) axis = a;
+  return axis;
+}
+
+std::array<int, 2> drawing_axes(const Arrangement& drawing) {
+  const int flat = flat_axis(drawing).value_or(2);
+  return {flat == 0 ? 1 : 0, flat == 2 ? 1 : 2};
+}
+
 void count_points(const Moments& points, ArrangedPlane& plane) {
   plane.points = static_cast<std::size_t>(points.count);
   plane.rms = points.count > 0
