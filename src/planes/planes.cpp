@@ -194,7 +194,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   }
   {
     Stage stage(context, summary, "assignment");
-    const std::vector<int> index_of = describe_planes(model, sums, grid, space, result, context);
+    const std::vector<int> index_of = describe_planes(model, sums, grid, cells, space, result, context);
     PlaneSums points(model, result.scale);
     with_planes_of_points(source, reach, grid, false, seen, context, [&](const PointCloud& block, std::size_t, std::vector<int>& plane) {
       points.add(block, plane, {});
