@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/columns.h"
+#include "io/output_place.h"
 #include "io/readers.h"
 #include "io/sniff.h"
 #include "io/text.h"
@@ -34,16 +35,13 @@ class TilesSource final : public PointSource {
  public:
   TilesSource(const fs::path& folder, const ReadOptions& options) : options_(options) {
     info_.name = folder.string();
-    std::vector<fs::path> paths;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.is_regular_file() && is_tile(entry.path())) paths.push_back(entry.path());
-    std::sort(paths.begin(), paths.end());
+    const std::vector<fs::path> paths = find_tiles(folder);
     info_.point_count = 0;
     info_.two_dimensional = true;
     for (const fs::path& path : paths) inspect(path);
     if (tiles_.empty())
       throw InputError(info_.name, "folder",
-                       paths.empty() ? "no point files" : "no usable tile (" + info_.notes.front() + ")",
+                       paths.empty() ? "no point files" : "no usable tile (" + info_.notes.back() + ")",
                        "point files, or depth frames with camera-intrinsics.txt");
     info_.has_normals = keep_.normals;
     if (dropped_) info_.notes.push_back("normals, colours or labels that only some tiles have left out");
@@ -72,6 +70,23 @@ class TilesSource final : public PointSource {
   }
 
  private:
+  /// In the order of their names, but for those that an earlier run wrote there as its result.
+  std::vector<fs::path> find_tiles(const fs::path& folder) {
+    const auto results = result_files(folder);
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (!entry.is_regular_file() || !is_tile(entry.path())) continue;
+      const std::string name = entry.path().filename().string();
+      if (results.count(name) > 0)
+        info_.notes.push_back(name + ": from the result of an earlier run, not read as a tile");
+      else
+        paths.push_back(entry.path());
+    }
+    std::sort(info_.notes.begin(), info_.notes.end());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+  }
+
   /// Reads a tile once, so that what is broken is known before anything is computed.
   void inspect(const fs::path& path) {
     try {
