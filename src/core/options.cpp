@@ -48,6 +48,19 @@ std::string found(const OptionInput& value) {
                     value);
 }
 
+/// Whether a list has the numbers that its option takes; none at all is that nothing is set.
+bool fits(const std::vector<double>& list, const Option& option) {
+  if (list.empty() || option.parts.empty()) return true;
+  const auto stays = std::adjacent_find(list.begin(), list.end(), [](double a, double b) { return !(a < b); });
+  return list.size() == option.parts.size() && (!option.rising || stays == list.end());
+}
+
+/// "2 numbers nearest,farthest with nearest < farthest"
+std::string parts_of(const Option& option) {
+  const std::string order = option.rising ? fmt::format(" with {}", fmt::join(option.parts, " < ")) : "";
+  return fmt::format("{} numbers {}{}", option.parts.size(), fmt::join(option.parts, ","), order);
+}
+
 }  // namespace
 
 std::string Option::flag() const {
@@ -122,14 +135,13 @@ void OptionTable::set(const std::string& name, const OptionInput& value, const s
                         *target = text;
                       },
                       [&](std::vector<double>* target) {
-                        if (const double* one = std::get_if<double>(&value)) {
-                          *target = {checked(*one)};
-                        } else if (const auto* many = std::get_if<std::vector<double>>(&value)) {
-                          for (const double v : *many) checked(v);
-                          *target = *many;
-                        } else {
-                          fail("numbers " + option.range());
-                        }
+                        const double* one = std::get_if<double>(&value);
+                        const auto* many = std::get_if<std::vector<double>>(&value);
+                        if (one == nullptr && many == nullptr) fail("numbers " + option.range());
+                        const std::vector<double> list = one ? std::vector<double>{*one} : *many;
+                        for (const double v : list) checked(v);
+                        if (!fits(list, option)) fail(parts_of(option));
+                        *target = list;
                       }},
              option.target);
 }

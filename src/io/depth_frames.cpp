@@ -77,10 +77,13 @@ Camera read_intrinsics_text(const fs::path& path) {
 }
 
 bool is_depth_folder(const fs::path& folder) {
-  return fs::is_regular_file(folder / kIntrinsics);
+  return fs::is_regular_file(folder / kIntrinsics) ||
+         std::any_of(fs::directory_iterator(folder), fs::directory_iterator(), [](const auto& entry) { return is_depth_image(entry.path()); });
 }
 
 DepthFolder read_depth_folder(const fs::path& folder, int frame_step) {
+  if (!fs::exists(folder / kIntrinsics))
+    throw InputError(folder.string(), kIntrinsics, "no such file", "the camera matrix of the frames, 9 numbers");
   DepthFolder result;
   result.camera = read_intrinsics_text(folder / kIntrinsics);
   std::vector<fs::path> images;

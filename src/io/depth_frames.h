@@ -26,6 +26,7 @@ struct DepthFolder {
 /// A file of 9 numbers, the camera matrix row by row; gives no size. Throws InputError.
 Camera read_intrinsics_text(const std::filesystem::path& path);
 
+/// True if a folder holds depth images or their intrinsics.
 bool is_depth_folder(const std::filesystem::path& folder);
 /// Throws InputError if the intrinsics are unusable or no frame is.
 DepthFolder read_depth_folder(const std::filesystem::path& folder, int frame_step);

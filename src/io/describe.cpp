@@ -20,7 +20,9 @@ OptionTable describe(ReadOptions& o) {
              "depth folders: nearest and farthest depth that counts",
              0,
              kInf,
-             {}});
+             {},
+             {"nearest", "farthest"},
+             true});
   table.add(
       {"depth_step", &o.depth_step, "", "depth folders: every n-th pixel in both directions", 1, 1e9, {}});
   table.add({"frame_step", &o.frame_step, "", "depth folders: every n-th frame", 1, 1e9, {}});

@@ -79,6 +79,11 @@ bool same_device(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
+Names result_files(const fs::path& folder) {
+  const Names names = listed_files(folder);
+  return names.count("result.json") > 0 ? names : Names();
+}
+
 OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
   try {
     target_ = resolved(path);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 namespace unseen::io {
 
@@ -10,5 +12,7 @@ namespace unseen::io {
 std::filesystem::path resolved(const std::filesystem::path& path);
 /// A hidden name beside `target` that nothing else uses.
 std::filesystem::path temporary_beside(const std::filesystem::path& target);
+/// The result that an earlier run wrote into a folder, relative to it; nothing if it wrote something to be read, as unseen synth does.
+std::set<std::string> result_files(const std::filesystem::path& folder);
 
 }  // namespace unseen::io

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "io/file_bytes.h"
+#include "io/output_place.h"
 #include "unseen/core/error.h"
 
 namespace unseen::io {
@@ -60,9 +61,11 @@ std::string sha256(const fs::path& path, const Context& context) {
   if (!fs::is_directory(path, error)) return file_digest(path, context, 0.0, 1.0);
   std::vector<fs::path> files;
   try {
-    for (const auto& entry : fs::directory_iterator(path))
-      if (entry.is_regular_file() && entry.path().filename().string().front() != '.')
-        files.push_back(entry.path());
+    const auto results = result_files(path);  // no input
+    for (const auto& entry : fs::directory_iterator(path)) {
+      const std::string name = entry.path().filename().string();
+      if (entry.is_regular_file() && name.front() != '.' && results.count(name) == 0) files.push_back(entry.path());
+    }
   } catch (const fs::filesystem_error& fault) {
     throw InputError(path.string(), "folder", fault.code().message(), "a readable folder");
   }

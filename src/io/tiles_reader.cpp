@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "io/columns.h"
+#include "io/output_place.h"
 #include "io/readers.h"
 #include "io/sniff.h"
 #include "io/text.h"
@@ -34,17 +39,15 @@ class TilesSource final : public PointSource {
  public:
   TilesSource(const fs::path& folder, const ReadOptions& options) : options_(options) {
     info_.name = folder.string();
-    std::vector<fs::path> paths;
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.is_regular_file() && is_tile(entry.path())) paths.push_back(entry.path());
-    std::sort(paths.begin(), paths.end());
+    const std::vector<fs::path> paths = find_tiles(folder);
     info_.point_count = 0;
     info_.two_dimensional = true;
     for (const fs::path& path : paths) inspect(path);
     if (tiles_.empty())
       throw InputError(info_.name, "folder",
-                       paths.empty() ? "no point files" : "no usable tile (" + info_.notes.front() + ")",
+                       paths.empty() ? "no point files" : "no usable tile (" + info_.notes.back() + ")",
                        "point files, or depth frames with camera-intrinsics.txt");
+    check_together();
     info_.has_normals = keep_.normals;
     if (dropped_) info_.notes.push_back("normals, colours or labels that only some tiles have left out");
   }
@@ -72,19 +75,40 @@ class TilesSource final : public PointSource {
   }
 
  private:
+  /// In the order of their names, but for those that an earlier run wrote there as its result.
+  std::vector<fs::path> find_tiles(const fs::path& folder) {
+    const auto results = result_files(folder);
+    std::vector<fs::path> paths;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (!entry.is_regular_file() || !is_tile(entry.path())) continue;
+      const std::string name = entry.path().filename().string();
+      if (results.count(name) > 0)
+        info_.notes.push_back(name + ": from the result of an earlier run, not read as a tile");
+      else
+        paths.push_back(entry.path());
+    }
+    std::sort(info_.notes.begin(), info_.notes.end());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+  }
+
   /// Reads a tile once, so that what is broken is known before anything is computed.
   void inspect(const fs::path& path) {
     try {
       const auto tile = open_file(input_from(path, options_));
       PointCloud block;
       std::size_t count = 0;
+      Eigen::AlignedBox3d box;
       Attributes has;
       while (tile->next(block)) {
         count += block.size();
+        for (const Vec3& p : block.positions)
+          if (p.allFinite()) box.extend(p);
         has = {!block.normals.empty(), !block.colors.empty(), !block.labels.empty()};
       }
       if (count == 0) throw InputError(path.string(), "content", "no points", "points");
       add(path, tile->info(), has, count);
+      boxes_.push_back(box);
     } catch (const InputError& error) {
       info_.notes.push_back(std::string("tile left out: ") + error.what());
     }
@@ -107,9 +131,20 @@ class TilesSource final : public PointSource {
     tiles_.push_back(path);
   }
 
+  /// Tiles in coordinates of their own beside others in those of a map have nothing in common.
+  void check_together() const {
+    constexpr double kFarApart = 1e6;  // m
+    for (std::size_t t = 1; t < tiles_.size(); ++t)
+      if (const double apart = boxes_.front().exteriorDistance(boxes_[t]); apart > kFarApart && std::isfinite(apart))
+        throw InputError(info_.name, "tiles",
+                         fmt::format("{} and {} {:.0f} km apart", tiles_.front().filename().string(), tiles_[t].filename().string(), 1e-3 * apart),
+                         "tiles in the same coordinates");
+  }
+
   ReadOptions options_;
   SourceInfo info_;
   std::vector<fs::path> tiles_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< of the tiles' finite points; infinitely far from all others where there are none
   Attributes keep_;  ///< what all tiles have
   bool dropped_ = false;
   std::size_t at_ = 0;

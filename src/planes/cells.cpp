@@ -128,7 +128,6 @@ Cells estimate_normals(VoxelGrid& grid, const Space& space, Context& context) {
 }
 
 void adapt_tolerance(Cells& cells, const VoxelGrid& grid, const std::optional<Vec3>& viewpoint) {
-  const double scale = 2.0 * grid.edge;
   std::vector<double> factor(grid.size());
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const Moments& m = grid.moments[i];
@@ -140,7 +139,7 @@ void adapt_tolerance(Cells& cells, const VoxelGrid& grid, const std::optional<Ve
   std::nth_element(sorted.begin(), middle, sorted.end());
   if (!(*middle > 0.0)) return;
   for (std::size_t i = 0; i < grid.size(); ++i)
-    cells.tolerance[i] = scale * std::clamp(factor[i] / *middle, 1.0, 4.0);
+    cells.tolerance[i] = grid.tolerance * std::clamp(factor[i] / *middle, 1.0, 4.0);
 }
 
 }  // namespace unseen::planes

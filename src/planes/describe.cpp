@@ -33,15 +33,25 @@ std::array<Vec3, 2> segment_of(const std::vector<Vec3>& points, const Plane& pla
   return {at(low - 0.25 * edge), at(high + 0.25 * edge)};
 }
 
+/// Mean square of how far a part's points may lie from it, m².
+double squared_tolerance(const Part& part, const VoxelGrid& grid, const Cells& cells) {
+  double sum = 0, count = 0;
+  for (const int c : part.cells) {
+    sum += grid.moments[c].count * cells.tolerance[c] * cells.tolerance[c];
+    count += grid.moments[c].count;
+  }
+  return sum / count;
+}
+
 }  // namespace
 
-std::vector<int> describe_planes(const Model& model, const std::vector<Moments>& sums, const VoxelGrid& grid,
+std::vector<int> describe_planes(const Model& model, const std::vector<Moments>& sums, const VoxelGrid& grid, const Cells& cells,
                                  const Space& space, Arrangement& result, const Context& context) {
   // The largest planes first: ids are stable and lists start with what matters.
   std::vector<int> order;
   const auto on_plane = [&](std::size_t p) {  // the last refit may have carried a plane off its points
     const Plane plane = model.plane(model.parts[p]);
-    return sums[p].squared_distances(plane.normal, plane.offset) < sums[p].count * grid.tolerance * grid.tolerance;
+    return sums[p].squared_distances(plane.normal, plane.offset) < sums[p].count * squared_tolerance(model.parts[p], grid, cells);
   };
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     if (sums[p].count >= 3 && on_plane(p)) order.push_back(static_cast<int>(p));
@@ -97,6 +107,22 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
     }
   });
   return renumber;
+}
+
+std::optional<int> flat_axis(const Arrangement& arrangement) {
+  if (!arrangement.two_dimensional) return std::nullopt;
+  const auto line = std::find_if(arrangement.planes.begin(), arrangement.planes.end(), [](const ArrangedPlane& p) { return p.segment.has_value(); });
+  if (line == arrangement.planes.end()) return 2;
+  const Vec3 across = line->plane.normal.cross((*line->segment)[1] - (*line->segment)[0]).cwiseAbs();
+  int axis = 2;
+  for (const int a : {1, 0})
+    if (across[a] > across[axis]) axis = a;
+  return axis;
+}
+
+std::array<int, 2> drawing_axes(const Arrangement& drawing) {
+  const int flat = flat_axis(drawing).value_or(2);
+  return {flat == 0 ? 1 : 0, flat == 2 ? 1 : 2};
 }
 
 void count_points(const Moments& points, ArrangedPlane& plane) {

@@ -10,7 +10,7 @@ namespace unseen::planes {
 /// The result's planes, directions and frames from the final model, with outlines and areas. `sums` holds the
 /// moments of the points that each plane explains; planes of fewer than three, or that lie off them, are left out. Returns the
 /// result's index of each of the model's planes (−1 = left out).
-std::vector<int> describe_planes(const Model& model, const std::vector<Moments>& sums, const VoxelGrid& grid,
+std::vector<int> describe_planes(const Model& model, const std::vector<Moments>& sums, const VoxelGrid& grid, const Cells& cells,
                                  const Space& space, Arrangement& result, const Context& context);
 
 /// Sets a plane's number of points and their rms distance.

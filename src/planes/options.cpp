@@ -16,7 +16,7 @@ OptionTable describe(Options& o) {
   table.add({"solver", &o.solver, "", "how frames are selected; exact proves small problems by integer programming", -kInf, kInf, {"local", "exact"}});
   table.add({"time_limit", &o.time_limit, "s", "for the exact solver", 0.0, kInf, {}});
   table.add({"adaptive_scale", &o.adaptive_scale, "", "let the scale grow with the distance to the viewpoint, or with the local noise", -kInf, kInf, {}});
-  table.add({"viewpoint", &o.viewpoint, "m", "where the sensor stood: x,y,z. Without it, what the file says", -kInf, kInf, {}});
+  table.add({"viewpoint", &o.viewpoint, "m", "where the sensor stood: x,y,z. Without it, what the file says", -kInf, kInf, {}, {"x", "y", "z"}});
   table.add({"seed", &o.seed, "", "seed of everything random", 0, 2147483647, {}});
   return table;
 }

@@ -61,13 +61,13 @@ void warn_of_lost_digits(const Survey& survey, double scale, Context& context) {
 }
 
 /// Warns where an estimated scale leaves most of the points without a plane.
-void warn_of_few(const Arrangement& result, std::size_t usable, Context& context) {
+void warn_of_few(const Arrangement& result, std::size_t finite, Context& context) {
   constexpr double kFew = 0.5;
   std::size_t assigned = 0;
   for (const ArrangedPlane& p : result.planes) assigned += p.points;
-  if (result.planes.empty() || static_cast<double>(assigned) > kFew * static_cast<double>(usable)) return;
+  if (result.planes.empty() || static_cast<double>(assigned) > kFew * static_cast<double>(finite)) return;
   context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m: plants do not; if the scene is made of planes, another "
-                           "scale suits it better (--scale)", 100.0 * static_cast<double>(assigned) / static_cast<double>(usable), result.scale));
+                           "scale suits it better (--scale)", 100.0 * static_cast<double>(assigned) / static_cast<double>(finite), result.scale));
 }
 
 /// Warns where planes are at right angles that the angles asked for do not name.
@@ -194,7 +194,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   }
   {
     Stage stage(context, summary, "assignment");
-    const std::vector<int> index_of = describe_planes(model, sums, grid, space, result, context);
+    const std::vector<int> index_of = describe_planes(model, sums, grid, cells, space, result, context);
     PlaneSums points(model, result.scale);
     with_planes_of_points(source, reach, grid, false, seen, context, [&](const PointCloud& block, std::size_t, std::vector<int>& plane) {
       points.add(block, plane, {});
@@ -205,7 +205,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
     for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
     summary.counts[3].second = result.planes.size();
-    if (!options.scale && !options.relative_scale) warn_of_few(result, seen.finite - seen.duplicates, context);
+    if (!options.scale && !options.relative_scale) warn_of_few(result, seen.finite, context);
   }
   Stage stage(context, summary, "relations");
   find_relations(angles, result);

@@ -101,6 +101,7 @@ void find_second_order(Arrangement& result) {
   std::vector<std::vector<int>> of_direction(result.directions.size());
   for (std::size_t p = 0; p < result.planes.size(); ++p) of_direction[result.planes[p].direction].push_back(static_cast<int>(p));
   const double tolerance = kStepTolerance * result.scale;
+  const std::optional<int> flat = flat_axis(result);
   for (std::size_t d = 0; d < of_direction.size(); ++d) {
     std::vector<int> planes = of_direction[d];
     if (planes.size() < 2) continue;
@@ -109,8 +110,7 @@ void find_second_order(Arrangement& result) {
       return result.planes[a].plane.offset < result.planes[b].plane.offset;
     });
     const Vec3& n = result.directions[d].normal;
-    const Vec3 u = result.two_dimensional ? Vec3(n.cross(Vec3::UnitZ()).norm() > 0.5 ? n.cross(Vec3::UnitZ()).normalized() : any_orthogonal(n))
-                                          : any_orthogonal(n);
+    const Vec3 u = flat ? Vec3(n.cross(Vec3::Unit(*flat)).normalized()) : any_orthogonal(n);
     const Vec3 v = n.cross(u);
     std::vector<int> levels;  // one plane an offset, the lowest id
     for (std::size_t i = 0; i < planes.size();) {

@@ -38,13 +38,19 @@ std::vector<std::vector<int>> rounds_by_area(const Patches& patches) {
 
 /// Energy of giving every patch a frame of its own.
 Energy keep_local_fits(const Patches& patches, const AngleSet& angles, const Space& space,
-                       const std::vector<Vec3>& locals, double lambda) {
+                       const std::vector<Vec3>& locals, double lambda, const Context& context) {
+  if (lambda == 1.0) return {};
   std::vector<OrientationFrame> frames;
   for (const Patch& p : patches.patches) frames.push_back(open_frame(p.fit.normal, space));
   Energy e;
   double pairs = 0;
-  for (std::size_t a = 0; a < frames.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) pairs += irregularity(frames[a], frames[b], locals, angles);
+  std::vector<double> with(frames.size());  // added one by one: the sum is the same on any number of threads
+  for (std::size_t a = 0; a < frames.size(); ++a) {
+    parallel_blocks(context, a, 1024, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) with[b] = irregularity(frames[a], frames[b], locals, angles);
+    });
+    for (std::size_t b = 0; b < a; ++b) pairs += with[b];
+  }
   e.irregularity = (1.0 - lambda) * irregularity_cost(pairs);
   for (const auto& [a, b] : patches.neighbours)
     if (line_angle(patches.patches[a].fit.normal, patches.patches[b].fit.normal) > kSameOrientation)
@@ -228,7 +234,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
   Selection s;
   s.frame_of_patch.assign(patches.patches.size(), -1);
   s.local_of_patch.assign(patches.patches.size(), -1);
-  s.before = keep_local_fits(patches, angles, space, locals, lambda);
+  s.before = keep_local_fits(patches, angles, space, locals, lambda, context);
 
   if (lambda == 1.0) {
     s.local_fits = true;

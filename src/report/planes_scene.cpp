@@ -92,7 +92,7 @@ std::string planes_scene(const Arrangement& a, const InputRecord& input, const O
   Json& header = scene.header;
   header["title"] = planes_title(a, input);
   write_run(scene, "planes", command, a.summary, options, input);
-  header["flat"] = a.two_dimensional;
+  header["flat"] = planes::flat_axis(a) == 2;  // the page looks at it from above
   if (const auto focus = focus_of(points, offset)) header["focus"] = *focus;
   if (const auto inside = is_inside(a)) header["inside"] = *inside;
   header["facts"] = facts_of(a);

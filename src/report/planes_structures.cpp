@@ -15,7 +15,7 @@ namespace {
 using planes::Arrangement;
 
 /// Plane fitted freely to points: what the data alone say; `fallback` where they say little or something else.
-Plane free_fit(std::span<const Vec3> points, const Plane& fallback, bool flat) {
+Plane free_fit(std::span<const Vec3> points, const Plane& fallback, std::optional<int> flat) {
   if (points.size() < 8) return fallback;
   const Plane fit = fitted_plane(points, flat);
   const double cosine = fit.normal.dot(fallback.normal);
@@ -76,9 +76,10 @@ void add_surfaces(SceneBuilder& scene, const Arrangement& a, const std::vector<S
   std::vector<std::array<int, 2>> rings;
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> owner;
+  const std::optional<int> flat = planes::flat_axis(a);
   for (std::size_t p = 0; p < a.planes.size(); ++p) {
     const planes::ArrangedPlane& plane = a.planes[p];
-    const Plane fit = free_fit(points.of_plane(static_cast<int>(p)), plane.plane, a.two_dimensional);
+    const Plane fit = free_fit(points.of_plane(static_cast<int>(p)), plane.plane, flat);
     const int first = static_cast<int>(vertices.size());
     int ring_start = first;
     for (const auto& ring : plane.polygon) {
@@ -162,7 +163,7 @@ void add_normals(SceneBuilder& scene, const Arrangement& a, const OrderedPoints&
   }
   for (float& w : weights) w = largest > 0 ? static_cast<float>(w / largest) : 0.0f;
   Json& sphere = scene.add("normals", "normals", "Normals");
-  sphere["before"] = scene.vectors(local_normals(points, a.two_dimensional));
+  sphere["before"] = scene.vectors(local_normals(points, planes::flat_axis(a)));
   sphere["after"] = scene.vectors(after);
   sphere["weights"] = scene.scalars(weights);
   sphere["elements"] = {{"structure", "planes"}, {"of_node", members}};

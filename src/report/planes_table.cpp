@@ -50,14 +50,17 @@ std::string plane_rows(const planes::Arrangement& a) {
 }
 
 std::string line_rows(const planes::Arrangement& a) {
-  std::string text = row("id", "tag", "frame", "direction", "normal_x", "normal_y", "offset_m", "length_m",
-                         "start_x_m", "start_y_m", "end_x_m", "end_y_m", "points", "rms_m");
+  const auto [right, up] = planes::drawing_axes(a);
+  const char x = "xyz"[right], y = "xyz"[up];
+  const auto named = [](const char* name, char axis, const char* unit) { return fmt::format("{}_{}{}", name, axis, unit); };
+  std::string text = row("id", "tag", "frame", "direction", named("normal", x, ""), named("normal", y, ""), "offset_m", "length_m",
+                         named("start", x, "_m"), named("start", y, "_m"), named("end", x, "_m"), named("end", y, "_m"), "points", "rms_m");
   for (std::size_t id = 0; id < a.planes.size(); ++id) {
     const planes::ArrangedPlane& p = a.planes[id];
     if (!p.segment) continue;
     const auto& [start, end] = *p.segment;
-    text += row(id, p.tag, p.frame, p.direction, p.plane.normal.x(), p.plane.normal.y(), p.plane.offset,
-                p.area, start.x(), start.y(), end.x(), end.y(), p.points, p.rms);
+    const Vec3& n = p.plane.normal;
+    text += row(id, p.tag, p.frame, p.direction, n[right], n[up], p.plane.offset, p.area, start[right], start[up], end[right], end[up], p.points, p.rms);
   }
   return text;
 }

@@ -55,19 +55,19 @@ OrderedPoints ordered(const PointSample& sample, std::size_t plane_count) {
   return points;
 }
 
-Plane fitted_plane(std::span<const Vec3> points, bool flat) {
+Plane fitted_plane(std::span<const Vec3> points, std::optional<int> flat) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : points) mean += p;
   mean /= static_cast<double>(points.size());
   Mat3 scatter = Mat3::Zero();
   for (const Vec3& p : points) scatter += (p - mean) * (p - mean).transpose();
-  if (flat) scatter(2, 2) = 2.0 * scatter.trace() + 1.0;  // beyond the others: the last axis, not the normal
+  if (flat) scatter(*flat, *flat) = 2.0 * scatter.trace() + 1.0;  // beyond the others: the last axis, not the normal
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
   const Vec3 normal = eigen.eigenvectors().col(0);
   return {normal, normal.dot(mean)};
 }
 
-std::vector<Vec3> local_normals(const OrderedPoints& points, bool flat) {
+std::vector<Vec3> local_normals(const OrderedPoints& points, std::optional<int> flat) {
   std::vector<Vec3> normals;
   const std::size_t n = points.positions.size();
   const std::size_t step = std::max(kGroup, n / kGroups);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,11 +22,11 @@ struct OrderedPoints {
 
 OrderedPoints ordered(const PointSample& sample, std::size_t plane_count);
 
-/// Least-squares plane through points; in a drawing (`flat`) its normal is orthogonal to z. Its sign is arbitrary.
-Plane fitted_plane(std::span<const Vec3> points, bool flat);
+/// Least-squares plane through points; in a drawing its normal is orthogonal to the axis `flat`. Its sign is arbitrary.
+Plane fitted_plane(std::span<const Vec3> points, std::optional<int> flat);
 
 /// Normals of some thousand small groups of neighbouring points: what the input says of orientations, before
 /// anything is made regular.
-std::vector<Vec3> local_normals(const OrderedPoints& points, bool flat);
+std::vector<Vec3> local_normals(const OrderedPoints& points, std::optional<int> flat);
 
 }  // namespace unseen::report

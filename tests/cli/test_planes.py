@@ -76,6 +76,17 @@ class Planes(CliTest):
         self.assertEqual(set(first), set(second))
         self.assertNotEqual(first["result.json"], second["result.json"])
 
+    def test_a_result_beside_its_tiles_is_no_tile(self):
+        tiles = self.folder / "tiles"
+        tiles.mkdir()
+        self.room_file("tiles/a.ply")
+        runs = [self.unseen("planes", "tiles", "-o", "tiles") for _ in range(2)]
+        self.assertEqual(runs[1].returncode, 0, runs[1].stderr)
+        self.assertEqual(runs[0].stdout, runs[1].stdout)
+        self.assertNotIn("points.ply", runs[0].stderr)
+        self.assertIn("points.ply: from the result of an earlier run", runs[1].stderr)
+        self.assertEqual(self.unseen("view", "tiles", "-o", "page.html").returncode, 0)
+
     def test_same_bytes_at_any_thread_count(self):
         self.room_file()
         results = []

@@ -64,6 +64,18 @@ class WrongCommandLines(CliTest):
                 self.assert_one_line(run, 2, "command line: " + flag[2:], value, "expected", expected)
                 self.assertFalse((self.folder / "out").exists())
 
+    def test_lists_have_the_numbers_that_they_need(self):
+        self.room_file()
+        for flag, value, found, expected in (("--viewpoint", "1,2", "[1, 2]", "3 numbers x,y,z"),
+                                             ("--viewpoint", "1", "[1]", "3 numbers x,y,z"),
+                                             ("--depth-range", "2", "[2]", "2 numbers nearest,farthest"),
+                                             ("--depth-range", "1,1", "[1, 1]", "nearest < farthest"),
+                                             ("--depth-range", "3.5,0.3", "[3.5, 0.3]", "nearest < farthest")):
+            with self.subTest(flag=flag, value=value):
+                run = self.unseen("planes", "room.ply", "-o", "out", flag, value)
+                self.assert_one_line(run, 2, "command line: " + flag[2:].replace("-", "_"), found, expected)
+                self.assertFalse((self.folder / "out").exists())
+
 
 class Config(CliTest):
     def write(self, text):

@@ -17,6 +17,7 @@ struct Sample {
   std::optional<double> scale;
   std::string solver = "local";
   std::vector<double> angles = {90};
+  std::vector<double> range = {0, 1};
 };
 
 TEST(Shortened, CutsNoCharacterInTwo) {
@@ -39,6 +40,7 @@ OptionTable table_of(Sample& s) {
   table.add({"scale", &s.scale, "m", "", 1e-300, 1e300, {}});
   table.add({"solver", &s.solver, "", "", 0, 0, {"local", "exact"}});
   table.add({"angles", &s.angles, "deg", "", 1, 180, {}});
+  table.add({"range", &s.range, "m", "", 0, 9, {}, {"near", "far"}, true});
   return table;
 }
 
@@ -46,7 +48,7 @@ TEST(Options, TextSetsEveryKind) {
   Sample s;
   OptionTable table = table_of(s);
   for (const auto& [name, text] : {std::pair{"flag", "true"}, {"count", "7"}, {"share", "0.25"}, {"scale", "1e-3"},
-                                   {"solver", "exact"}, {"angles", "60,90"}})
+                                   {"solver", "exact"}, {"angles", "60,90"}, {"range", "1,2"}})
     table.set_text(name, text, "command line");
   EXPECT_TRUE(s.flag);
   EXPECT_EQ(s.count, 7);
@@ -54,13 +56,15 @@ TEST(Options, TextSetsEveryKind) {
   EXPECT_EQ(s.scale, 1e-3);
   EXPECT_EQ(s.solver, "exact");
   EXPECT_EQ(s.angles, (std::vector<double>{60, 90}));
+  EXPECT_EQ(s.range, (std::vector<double>{1, 2}));
 }
 
 TEST(Options, BadValuesNameSourceOptionAndRange) {
   Sample s;
   OptionTable table = table_of(s);
   for (const auto& [name, text] : {std::pair{"count", "2.5"}, {"count", "10"}, {"share", "nan"}, {"share", "half"},
-                                   {"scale", "0"}, {"solver", "magic"}, {"angles", "60,"}, {"flag", "maybe"}}) {
+                                   {"scale", "0"}, {"solver", "magic"}, {"angles", "60,"}, {"flag", "maybe"},
+                                   {"range", "1"}, {"range", "1,2,3"}, {"range", "2,1"}, {"range", "1,1"}}) {
     try {
       table.set_text(name, text, "a.toml");
       ADD_FAILURE() << name << " took " << text;

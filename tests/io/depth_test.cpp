@@ -63,6 +63,9 @@ TEST(Depth, BadFramesAreNotesAndNoisyPosesAreFine) {
 
 TEST(Depth, NothingUsableIsAnError) {
   const ScratchFolder folder;
+  write_frame(folder, "frame-0", kPose, png16(2, 2, 1000));
+  expect_error([&] { open_points(folder.path); }, {folder.path.string(), "camera-intrinsics.txt", "no such file"});
+  std::filesystem::remove(folder / "frame-0.depth.png");
   write_file(folder / "camera-intrinsics.txt", "1 2 3");
   expect_error([&] { open_points(folder.path); }, {"camera-intrinsics.txt", "3 numbers"});
   write_file(folder / "camera-intrinsics.txt", "0 0 1\n0 2 0.5\n0 0 1\n");

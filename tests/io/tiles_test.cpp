@@ -29,6 +29,28 @@ TEST(Tiles, AreReadInTheOrderOfTheirNames) {
   EXPECT_EQ(read_all(*source).positions[1], cloud.positions[1]);
 }
 
+TEST(Tiles, ResultsOfAnEarlierRunAreNone) {
+  const ScratchFolder folder;
+  write_file(folder / "a.xyz", "1 2 3\n");
+  write_file(folder / "points.xyz", "4 5 6\n");
+  write_file(folder / ".unseen-files", "points.xyz\n");
+  EXPECT_EQ(read_all(*open_points(folder.path)).size(), 2u);  // no result: something that was made to be read
+  write_file(folder / ".unseen-files", "points.xyz\nresult.json\n");
+  const auto source = open_points(folder.path);
+  ASSERT_FALSE(source->info().notes.empty());
+  EXPECT_NE(source->info().notes[0].find("points.xyz: from the result"), std::string::npos);
+  EXPECT_EQ(read_all(*source).positions, std::vector<Vec3>{Vec3(1, 2, 3)});
+}
+
+TEST(Tiles, InDifferentCoordinatesAreRefused) {
+  const ScratchFolder folder;
+  write_file(folder / "local.xyz", "1 2 3\n4 5 6\n");
+  write_file(folder / "near.xyz", "500001 2 3\n");
+  EXPECT_EQ(read_all(*open_points(folder.path)).size(), 3u);
+  write_file(folder / "utm.xyz", "500001 5400002 3\n500004 5400005 6\n");
+  expect_error([&] { open_points(folder.path); }, {folder.path.string(), "tiles", "local.xyz and utm.xyz 5423 km apart", "same coordinates"});
+}
+
 TEST(Tiles, NothingUsableIsAnError) {
   const ScratchFolder folder;
   expect_error([&] { open_points(folder.path); }, {folder.path.string(), "no point files"});

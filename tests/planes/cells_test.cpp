@@ -178,6 +178,29 @@ TEST(AdaptTolerance, GrowsWithTheDistanceToTheViewpoint) {
   }
 }
 
+/// Where all is equally far, the option changes nothing.
+TEST(AdaptTolerance, StartsFromWhatTheSurveyFound) {
+  VoxelGrid grid = test::grid_of(test::plane_cloud(0.02, 0.0), 0.05);
+  grid.tolerance = 0.03;
+  Cells cells = cells_of(grid);
+  adapt_tolerance(cells, grid, Vec3(0, 0, 1e6));
+  for (const double t : cells.tolerance) EXPECT_NEAR(t, 0.03, 1e-6);
+}
+
+/// A far wall whose noise is above the scale, but not above what the option allows there.
+TEST(AdaptTolerance, FarPlanesStay) {
+  PointCloud cloud;
+  Random random(8);
+  test::add_rectangle(cloud, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, 0.005, 0.001, random);
+  test::add_rectangle(cloud, {-1, -1, 5}, {2, 0, 0}, {0, 2, 0}, 0.0125, 0.025, random);
+  Options options = test::with_scale(0.02);
+  options.adaptive_scale = true;
+  options.viewpoint = {0, 0, 0};
+  const Arrangement a = test::run(cloud, options).result;
+  ASSERT_EQ(a.planes.size(), 2u);
+  EXPECT_GT(a.summary.counts[1].second, 0.9 * static_cast<double>(cloud.size()));  // assigned
+}
+
 TEST(AdaptTolerance, GrowsWithTheNoiseButNotBeyondFourTimes) {
   PointCloud cloud;
   Random random(7);

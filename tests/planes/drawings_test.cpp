@@ -223,5 +223,31 @@ TEST(Drawings, AnyCoordinatePlaneWillDo) {
   }
 }
 
+/// Two walls side by side, and one beside neither: only the first two face each other.
+TEST(Drawings, LinesFaceEachOtherInAnyCoordinatePlane) {
+  for (int flat = 0; flat < 3; ++flat) {
+    const int u = flat == 0 ? 1 : 0, v = flat == 2 ? 1 : 2;
+    PointCloud cloud;
+    Random random(4);
+    const auto wall = [&](double at, double from, double to) {
+      for (int i = 0; i < 600; ++i) {
+        Vec3 p = Vec3::Constant(7.5);
+        p[u] = at + 0.002 * random.normal();
+        p[v] = random.uniform(from, to);
+        cloud.positions.push_back(p);
+      }
+    };
+    wall(0, 0, 2);
+    wall(1, 0, 2);
+    wall(0.5, 3, 5);
+    const Arrangement a = test::run(cloud, test::with_scale(0.05)).result;
+    SCOPED_TRACE(flat);
+    EXPECT_EQ(flat_axis(a), flat);
+    ASSERT_EQ(a.planes.size(), 3u);
+    ASSERT_EQ(a.distances.size(), 1u);
+    EXPECT_NEAR(a.distances[0].distance, 1, 0.002);
+  }
+}
+
 }  // namespace
 }  // namespace unseen::planes

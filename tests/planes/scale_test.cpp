@@ -132,6 +132,23 @@ TEST(ChooseScale, PlantsDoNotCount) {
 }
 
 /// The two sides of a wall are one neighbourhood in a thinned sample, but not in the whole cloud.
+/// A box amid dust; every point twice says no more than once.
+TEST(ChooseScale, WarnsWhereFewPointsLieOnPlanes) {
+  PointCloud cloud = test::box_cloud({0, 0, 0}, {2, 1.5, 1}, 0.03, 0.002, 1);
+  Random random(3);
+  const std::size_t dust = 2 * cloud.size();
+  for (std::size_t i = 0; i < dust; ++i) cloud.positions.emplace_back(random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4));
+  const auto warned = [](const Arrangement& a) {
+    return std::any_of(a.summary.warnings.begin(), a.summary.warnings.end(), [](const std::string& w) { return w.find("of the points lie on planes") != std::string::npos; });
+  };
+  const Arrangement once = test::run(cloud, Options()).result;
+  ASSERT_FALSE(once.planes.empty());
+  EXPECT_TRUE(warned(once));
+  const std::vector<Vec3> points = cloud.positions;
+  cloud.positions.insert(cloud.positions.end(), points.begin(), points.end());
+  EXPECT_TRUE(warned(test::run(cloud, Options()).result));
+}
+
 TEST(ChooseScale, BothSidesOfAThinWallAreNoNoise) {
   PointCloud cloud;
   Random random(12);

@@ -122,8 +122,10 @@ TEST(Describe, LeavesOutWhatLiesOffItsPointsOrHasNone) {
   VoxelGrid grid = test::grid_of(cloud, 0.01);
   grid.tolerance = 0.01;
   for (std::size_t v = 0; v < grid.size(); ++v) model.parts[static_cast<std::size_t>(std::lround(10 * grid.moments[v].mean.z()))].cells.push_back(static_cast<int>(v));
+  Cells cells;
+  cells.tolerance.assign(grid.size(), grid.tolerance);
   Arrangement result;
-  EXPECT_EQ(describe_planes(model, sums, grid, {}, result, Context()), (std::vector<int>{0, -1, -1}));
+  EXPECT_EQ(describe_planes(model, sums, grid, cells, {}, result, Context()), (std::vector<int>{0, -1, -1}));
   ASSERT_EQ(result.planes.size(), 1u);
   EXPECT_NEAR(result.planes[0].area, 1.0, 0.05);
 }

@@ -6,6 +6,7 @@
 #include <random>
 #include <regex>
 
+#include "report/point_order.h"
 #include "report/polygon_size.h"
 #include "report/sample.h"
 #include "report/surfaces.h"
@@ -88,6 +89,30 @@ TEST(Drawing, FarOnesLoseNothing) {
   EXPECT_LT(std::abs(std::stod(found[1])), 3);
   EXPECT_NEAR(origin.x() + std::stod(found[1]), 500000.75, 1e-6);
   EXPECT_NEAR(origin.y() - std::stod(found[2]), 5399999.75, 1e-6);
+}
+
+/// The same drawing in the plane y = 0.
+planes::Arrangement standing_drawing() {
+  planes::Arrangement a = sample_drawing();
+  const auto stand = [](Vec3& v) { v = {v.x(), -v.z(), v.y()}; };
+  for (planes::Direction& d : a.directions) stand(d.normal);
+  for (planes::ArrangedPlane& p : a.planes) {
+    stand(p.plane.normal);
+    for (Vec3& end : *p.segment) stand(end);
+  }
+  return a;
+}
+
+TEST(Drawing, AStandingOneIsDrawnAsItStands) {
+  const planes::Arrangement lying = sample_drawing(), standing = standing_drawing();
+  EXPECT_EQ(planes::flat_axis(standing), 1);
+  EXPECT_EQ(std::regex_replace(drawing_svg(standing), std::regex("world z"), "world y"), drawing_svg(lying));
+  EXPECT_EQ(std::regex_replace(planes_csv(standing), std::regex("_z"), "_y"), planes_csv(lying));
+}
+
+TEST(FittedPlane, OfADrawingIsALineOfIt) {
+  const std::vector<Vec3> points = {{0, 2, 0}, {1, 2, 1}, {2, 2, 2}, {3, 2, 3}};
+  EXPECT_LT(line_angle(fitted_plane(points, 1).normal, Vec3(1, 0, -1)), 1e-9);
 }
 
 TEST(Exchange, NothingIsAFileToo) {

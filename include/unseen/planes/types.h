@@ -18,7 +18,7 @@ namespace unseen::planes {
 /// its holes, clockwise. No ring repeats its first point. Metres.
 using Polygon = std::vector<std::vector<Vec3>>;
 
-/// One plane of the arrangement (a line in 2D, where z = 0). Its normal is that of its direction, up to sign.
+/// One plane of the arrangement (a line in 2D, where all points share one coordinate). Its normal is that of its direction, up to sign.
 struct ArrangedPlane {
   Plane plane;
   int direction = -1;                           ///< index into Arrangement::directions
@@ -85,6 +85,12 @@ struct Arrangement {
   std::vector<EqualLength> equal_lengths;
   Summary summary;
 };
+
+/// The axis (0…2) along which a drawing is flat: across its first line and that one's normal, or z. Nothing in 3D.
+std::optional<int> flat_axis(const Arrangement& arrangement);
+
+/// The two other axes of a drawing, in their order: as x and y, or x and z, they run right and up on paper.
+std::array<int, 2> drawing_axes(const Arrangement& drawing);
 
 /// Receives the plane of each point, block after block in input order; −1 = none.
 /// `positions` are the block's points as read.
