@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <utility>
 
 namespace unseen::cuboids {
 namespace {
@@ -20,15 +20,17 @@ constexpr double kWorse = 1.2;      // mean distance to a paraboloid, of that to
 
 /// What of a face lies within `reach` links of the ends of an edge's links.
 std::vector<int> part_near(const Observation& seen, const Faces& faces, int face, const std::vector<int>& ends, int reach) {
-  std::set<int> visited(ends.begin(), ends.end());
-  std::vector<int> queue(visited.begin(), visited.end()), part;
+  std::vector<char> visited(faces.face_of_point.size(), 0);
+  std::vector<int> queue, part;
+  for (const int i : ends)
+    if (std::exchange(visited[i], 1) == 0) queue.push_back(i);
   std::size_t at = 0;
   for (int step = 0; step <= reach; ++step)
     for (const std::size_t end = queue.size(); at < end; ++at) {
       const int i = queue[at];
       if (faces.face_of_point[i] == face) part.push_back(i);
       for (const int j : seen.graph.neighbours(i))
-        if (faces.face_of_point[j] == face && visited.insert(j).second) queue.push_back(j);
+        if (faces.face_of_point[j] == face && std::exchange(visited[j], 1) == 0) queue.push_back(j);
     }
   return part;
 }
