@@ -15,7 +15,7 @@ OptionTable describe(Options& o) {
   t.add({"shared_restitution", &o.shared_restitution, "", "all impacts of the shot have one restitution", 0, 1, {}});
   t.add({"starts", &o.starts, "", "how many starts are solved; the best is kept, others that explain the data alike are told", 1, 1000, {}});
   t.add({"resamples", &o.resamples, "", "of the residuals, for the intervals; 0 = from the covariance alone", 0, 10000, {}});
-  t.add({"held_out", &o.held_out, "", "every so manyth frame is kept out of a second solve that tells whether the model fits; 0 = none", 0, 1000, {}});
+  t.add({"held_out", &o.held_out, "", "every so manyth sighting of a flight is kept out of a second solve that tells whether the model fits; 0 = none", 0, 1000, {}});
   t.add({"orientation_noise", &o.orientation_noise, "deg", "standard deviation of given orientations", 0.01, 180.0, {}});
   t.add({"seed", &o.seed, "", "of random choices", 0, 2147483647, {}});
   return t;
