@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "collision/median.h"
 
 namespace unseen::collision {
 namespace {
@@ -19,9 +22,7 @@ double typical_step(const std::vector<double>& stamps) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < stamps.size(); ++k)
     if (stamps[k] > stamps[k - 1]) steps.push_back(stamps[k] - stamps[k - 1]);
-  if (steps.empty()) return 0.0;
-  std::nth_element(steps.begin(), steps.begin() + steps.size() / 2, steps.end());
-  return steps[steps.size() / 2];
+  return median(std::move(steps));
 }
 
 /// Steps between frames, in frame times of the typical step. Containers leave some stamps out: what is between the two beside them is shared out.
