@@ -10,6 +10,8 @@
 #include <set>
 #include <span>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -194,9 +196,17 @@ double estimate_noise(const Candidates& candidates, double least) {
       if (best < 1e30 && moved > 4.0) values.push_back(best / std::sqrt(20.0) / std::sqrt(2.0));
     }
   if (values.size() < 4) return least;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
-  std::nth_element(values.begin(), at, values.end());
-  return std::max(least, *at / 0.536);  // first quartile of a Rayleigh distribution, over √2
+  return std::max(least, quantile(std::move(values), 0.25) / 0.536);  // first quartile of a Rayleigh distribution, over √2
+}
+
+Candidate looks_of(const Arc& arc) {
+  Candidate mean = arc.points[arc.points.size() / 2];
+  const auto count = static_cast<double>(arc.points.size());
+  mean.color = Vec3::Zero();
+  mean.round = 0.0;
+  for (const Candidate& c : arc.points) mean.color += c.color / count, mean.round += c.round / count;
+  mean.diameter = typical_diameter(arc.points);
+  return mean;
 }
 
 double silhouette_noise(const Shot& shot, const Candidates& candidates, double noise, Context& context) {

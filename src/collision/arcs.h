@@ -24,6 +24,9 @@ double estimate_noise(const Candidates& candidates, double least);
 /// The same, with what silhouettes of anything but spheres add: their centroids wander about the projected centre of mass as they turn.
 double silhouette_noise(const Shot& shot, const Candidates& candidates, double noise, Context& context);
 
+/// The arc's looks: those of its middle, with its mean colour and roundness and its typical size.
+Candidate looks_of(const Arc& arc);
+
 /// All stretches of flight, longest first, each candidate in at most one or (at the ends) two. Seeds are triples of candidates at
 /// equal steps; they grow frame by frame while the next one lies where it should and looks alike (thesis Section 5.3.2 draws them at
 /// random). `noise` is what candidates may be off their parabola; `jitter`, if it is much less, what they may be off where their

@@ -9,6 +9,7 @@
 
 #include "collision/lasting.h"
 #include "collision/resting.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -98,8 +99,7 @@ cv::Scalar gain_of(const cv::Mat& frame, const cv::Mat& background) {
         if (b > kDark && b < 250.0 && f < 250.0) ratios.push_back(f / b);
       }
     if (ratios.size() < 20) continue;
-    std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
-    const double middle = ratios[ratios.size() / 2];
+    const double middle = unseen::median(ratios);
     double sum = 0.0, count = 0.0;  // grey levels are whole numbers: the mean about the median is finer
     for (const double r : ratios)
       if (std::abs(r - middle) < kGainSpread * middle) {

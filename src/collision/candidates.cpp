@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "collision/disc.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -136,9 +137,7 @@ double typical_diameter(const std::vector<Candidate>& candidates) {
   std::vector<double> sizes;
   for (const Candidate& c : candidates)
     if (c.diameter > 0.0 && c.whole) sizes.push_back(c.diameter);
-  if (sizes.empty()) return 0.0;
-  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-  return sizes[sizes.size() / 2];
+  return median(std::move(sizes));
 }
 
 }  // namespace unseen::collision

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "collision/median.h"
 #include "unseen/collision/body_mesh.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {

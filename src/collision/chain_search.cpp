@@ -8,8 +8,8 @@
 
 #include "collision/flight_cost.h"
 #include "collision/linear_flights.h"
-#include "collision/median.h"
 #include "collision/shot_problem.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {

@@ -2,10 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/common_error.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "collision/median.h"
+#include "unseen/core/quantile.h"
+
 
 namespace unseen::collision {
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "collision/minkowski.h"
+#include "unseen/core/convex.h"
 
 namespace unseen::collision {
 namespace {
@@ -34,25 +35,9 @@ Corners lowest_corners(const Corners& corners, const Vec3& n, double tolerance) 
   return low;
 }
 
-using Polygon = std::vector<Vec2>;
+constexpr double kFlat = 1e-14;  // m²: a corner nearer to a side than rounding
 
-/// Convex hull, counter-clockwise (Andrew's monotone chain); two corners for a segment, one for a point.
-Polygon convex(Polygon points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
-  if (points.size() < 3) return points;
-  const auto turn = [](const Vec2& o, const Vec2& a, const Vec2& b) { return (a - o).x() * (b - o).y() - (a - o).y() * (b - o).x(); };
-  Polygon hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= start + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 1e-14) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
+using Polygon = std::vector<Vec2>;
 
 /// The part of a convex polygon (or segment, or point) within another convex one, widened by `margin` (Sutherland & Hodgman).
 Polygon within(Polygon subject, const Polygon& window, double margin) {
@@ -125,7 +110,7 @@ void locate(const Corners& a, const Corners& b, double tolerance, Proximity& nea
   const auto flat = [&](const Corners& corners) {
     Polygon polygon;
     for (const Vec3& c : corners) polygon.push_back({e1.dot(c), e2.dot(c)});
-    return convex(polygon);
+    return convex_hull(polygon, kFlat);
   };
   const Polygon low = flat(lowest_corners(a, n, tolerance)), high = flat(lowest_corners(b, -n, tolerance));
   Polygon patch = common(low, high, tolerance);

@@ -12,6 +12,7 @@
 #include "collision/restitution.h"
 #include "collision/symmetry.h"
 #include "collision/unknowns.h"
+#include "unseen/core/level.h"
 
 namespace unseen::collision {
 namespace {
@@ -134,14 +135,7 @@ void add_residuals(const SolvedImpact& impact, Reconstruction& result) {
 
 RigidTransform world_of(const Vec3& down, bool planar) {
   const Vec3 up = planar ? Vec3(-Vec3::UnitY()) : Vec3(-down.normalized());
-  Vec3 forward = Vec3::UnitZ();
-  if (line_angle(forward, up) < radians(5.0)) forward = -Vec3::UnitY();
-  const Vec3 y = (forward - up * up.dot(forward)).normalized();
-  RigidTransform T;
-  T.rotation.row(0) = y.cross(up).transpose();
-  T.rotation.row(1) = y.transpose();
-  T.rotation.row(2) = up.transpose();
-  return T;
+  return {level_rotation(up), Vec3::Zero()};
 }
 
 void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vector<SolvedImpact>& impacts, Reconstruction& result) {

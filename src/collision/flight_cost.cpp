@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "collision/linear_flights.h"
-#include "collision/median.h"
 #include "collision/shot_problem.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {

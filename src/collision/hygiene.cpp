@@ -8,7 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "collision/median.h"
+#include "unseen/core/quantile.h"
+
 
 namespace unseen::collision {
 namespace {

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -101,9 +103,7 @@ int typical(const cv::Mat& deviation) {
   std::vector<unsigned char> values;
   for (int y = 0; y < deviation.rows; y += 5)
     for (int x = 0; x < 3 * deviation.cols; x += 7) values.push_back(deviation.ptr<unsigned char>(y)[x]);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return median(std::move(values));
 }
 
 /// Sum of the steps between neighbouring pixels.

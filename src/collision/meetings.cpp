@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/median.h"
+#include "unseen/core/quantile.h"
+
 
 namespace unseen::collision {
 namespace {

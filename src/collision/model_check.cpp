@@ -11,6 +11,7 @@
 #include "collision/residuals.h"
 #include "collision/solve.h"
 #include "collision/unknowns.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -37,8 +38,7 @@ std::vector<Vec2> residuals(const Problem& problem, const State& state) {
 std::vector<char> outliers(const std::vector<Vec2>& off, double noise) {
   std::vector<double> sizes;
   for (const Vec2& o : off) sizes.push_back(o.norm());
-  std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
-  const double far = kFar * std::max(noise, sizes[sizes.size() / 2] / kMedianOfNorm);
+  const double far = kFar * std::max(noise, median(sizes) / kMedianOfNorm);
   std::vector<char> out;
   for (const Vec2& o : off) out.push_back(o.norm() > far);
   if (static_cast<double>(std::count(out.begin(), out.end(), 1)) > kMostOutliers * static_cast<double>(off.size())) out.assign(off.size(), 0);

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "collision/median.h"
 #include "collision/unknowns.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {

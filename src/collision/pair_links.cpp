@@ -122,14 +122,6 @@ bool meet_in_the_picture(const Collision& c, double noise) {
 
 }  // namespace
 
-Candidate looks_of(const Arc& arc) {
-  Candidate mean = arc.points[arc.points.size() / 2];
-  mean.color.setZero();
-  for (const Candidate& c : arc.points) mean.color += c.color / static_cast<double>(arc.points.size());
-  mean.diameter = typical_diameter(arc.points);
-  return mean;
-}
-
 Link link_of(const Arc& before, const Arc& after, double noise) {
   Link link;
   const CurveSums sums[2] = {sums_of(before), sums_of(after)};

@@ -28,9 +28,6 @@ struct Collision {
   std::array<std::size_t, 4> arcs() const { return {a.before, b.before, a.after, b.after}; }
 };
 
-/// The arc's looks: those of its middle, with its mean colour and typical size.
-Candidate looks_of(const Arc& arc);
-
 Link link_of(const Arc& before, const Arc& after, double noise);
 
 /// The one time at which both links are nearest to closed; NaN if there is none that both allow.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "collision/unknowns.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -27,8 +28,7 @@ std::optional<double> scale_ratio(const Solution& solution, int body) {
   for (const PointObservation& seen : problem.points)
     if (seen.body == body && seen.depth > 0.0) ratios.push_back(seen.depth / position_at<double>(problem, s, body, seen.after, seen.time).z());
   if (ratios.size() < 5) return std::nullopt;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
-  return ratios[ratios.size() / 2];
+  return median(std::move(ratios));
 }
 
 }  // namespace

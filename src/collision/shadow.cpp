@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -55,9 +57,7 @@ double high_contrast(const cv::Mat& difference, const cv::Mat& mask) {
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x)
       if (mask.at<unsigned char>(y, x)) values.push_back(difference.at<unsigned char>(y, x));
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 9 / 10);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  return quantile(std::move(values), 0.9);
 }
 
 /// Whether the piece has a colour, and it is the background's. Both means; a grey body before a wall with a tint is nearer to grey.

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <optional>
 
-#include "collision/median.h"
+#include "unseen/core/quantile.h"
+
 
 namespace unseen::collision {
 namespace {

@@ -59,12 +59,6 @@ void fall_with_drag(double drag, const Vec3& gravity, SynthState& s, double h, i
   s.v = x.tail<3>();
 }
 
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 m;
-  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return m;
-}
-
 Mat3 world_inverse_inertia(const SynthMover& m, const SynthState& s) {
   const Mat3 R = s.q.toRotationMatrix();
   return R * (m.mass * m.body.inertia).inverse() * R.transpose();

@@ -15,12 +15,6 @@ using Vector = Eigen::Matrix<double, kAll, 1>;
 using Matrix = Eigen::Matrix<double, kAll, kAll>;
 using Map = Eigen::Matrix<double, kFlight, kAll>;
 
-Mat3 cross_matrix(const Vec3& v) {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 double half_chi(const LinearFlight& f, const Eigen::Matrix<double, kFlight, 1>& y) { return 0.5 * y.dot(f.normal * y) - f.right.dot(y); }
 
 /// ½ χ² = ½ zᵀ M z − r z.

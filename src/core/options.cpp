@@ -9,17 +9,11 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/overload.h"
 #include "unseen/core/error.h"
 
 namespace unseen {
 namespace {
-
-template <class... F>
-struct Overload : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overload(F...) -> Overload<F...>;
 
 std::optional<double> number(std::string_view text) {
   double value = 0;

@@ -50,12 +50,6 @@ void add_force(const ConeContact& c, const Vec3& force, Vector& r) {  // r += Df
     }
 }
 
-Mat3 cross_matrix(const Vec3& v) {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 BlockCholesky::Block block_of(const Lever& a, const Lever& b, const Mat3& m, const Mat3& cross_a, const Mat3& cross_b) {
   BlockCholesky::Block block;
   const Mat3 left = cross_a * m, right = m * cross_b.transpose();

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cuboids/outline.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -32,12 +33,6 @@ constexpr double kSliceQuantile = 0.9;
 constexpr double kStripStep = 3.0;          // spacings or noise, without a point of a strip
 constexpr std::size_t kStripPoints = 4;     // within such a step
 constexpr std::size_t kMostRectanglePoints = 1500;
-
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 Mat3 turned(double yaw) {
   Mat3 axes = Mat3::Identity();

@@ -10,6 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -74,12 +76,10 @@ std::optional<Patch> patch_at(const RgbdFrame& frame, int left, int top) {
   return patch;
 }
 
-double quantile(const std::vector<Patch>& patches, double Patch::* value, double share) {
+std::vector<double> each(const std::vector<Patch>& patches, double Patch::* value) {
   std::vector<double> values;
   for (const Patch& patch : patches) values.push_back(patch.*value);
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  return values;
 }
 
 }  // namespace
@@ -91,9 +91,9 @@ double depth_noise(const RgbdFrame& frame, const Options& options) {
     for (int left = 0; left + kPatch <= frame.camera.width; left += kPatch)
       if (const auto patch = patch_at(frame, left, top)) patches.push_back(*patch);
   if (patches.size() < kFewestPatches) return kKinect;
-  const double flattest = quantile(patches, &Patch::noise, kFlatShare), step = std::min(quantile(patches, &Patch::step, 0.5), kCoarsest);
+  const double flattest = quantile(each(patches, &Patch::noise), kFlatShare), step = std::min(median(each(patches, &Patch::step)), kCoarsest);
   std::erase_if(patches, [&](const Patch& patch) { return patch.noise > flattest; });
-  const bool smoothed = flattest > kExact && quantile(patches, &Patch::correlation, 0.5) > kSmooth;
+  const bool smoothed = flattest > kExact && median(each(patches, &Patch::correlation)) > kSmooth;
   return std::max(smoothed ? kKinect : std::clamp(kWarps * flattest, kBest, kKinect), step);
 }
 

@@ -54,7 +54,7 @@ double squares_to_plane(const Observation& seen, const std::vector<int>& part) {
 
 /// Sum of the squared distances of points to the paraboloid about `axis` that fits them, in σ.
 double squares_to_paraboloid(const Observation& seen, const std::array<std::vector<int>, 2>& parts, const Vec3& origin, const Vec3& axis) {
-  const Vec3 u = axis.unitOrthogonal(), v = axis.cross(u);
+  const Vec3 u = any_orthogonal(axis), v = axis.cross(u);
   Eigen::Matrix<double, Eigen::Dynamic, 6> terms(parts[0].size() + parts[1].size(), 6);
   Eigen::VectorXd height(terms.rows());
   Eigen::Index row = 0;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -81,11 +83,7 @@ Plane fit_support(const Scan& scan, std::span<const int> points) {
       if (n.dot(origin + mean) > 0.0) n = -n;
       plane = {n, n.dot(origin + mean)};
     }
-    if (round > 0) {
-      const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-      std::nth_element(residuals.begin(), middle, residuals.end());
-      scale = 1.4826 * *middle;
-    }
+    if (round > 0) scale = 1.4826 * median(std::move(residuals));
   }
   return plane;
 }

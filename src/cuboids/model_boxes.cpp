@@ -7,6 +7,8 @@
 #include <limits>
 #include <optional>
 
+#include "unseen/core/convex.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -14,27 +16,6 @@ constexpr int kCells = 36;               // along the longest side
 constexpr double kLeastShare = 0.01;     // of the filled cells: smaller slabs are debris
 constexpr std::size_t kMostSlabs = 24;
 constexpr double kTrimmed = 0.005;       // share of a slab's points at each end that may be stray
-
-double cross(const Vec2& o, const Vec2& a, const Vec2& b) {
-  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
-}
-
-/// Counter-clockwise (Andrew's monotone chain).
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  const auto before = [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); };
-  std::sort(points.begin(), points.end(), before);
-  std::vector<Vec2> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t start = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= start + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 /// The block with the largest sum of weights, where a filled cell gains `gain` and any other loses `loss`: sums over
 /// columns of cells, and the largest run along z for each rectangle in x and y (Kadane).

@@ -11,6 +11,8 @@
 #include "cuboids/stack_levels.h"
 #include "cuboids/strokes.h"
 #include "cuboids/supports.h"
+#include "unseen/core/convex.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -43,13 +45,12 @@ std::vector<std::vector<int>> components(const Observation& seen, const std::vec
 /// or hangs over, with most of it above the ground.
 std::vector<int> candidates(const Observation& seen) {
   std::vector<int> group(seen.points.size(), -1);
-  std::vector<Vec2> outline;
-  for (const Vec3& p : seen.supports.front().outline) outline.push_back(p.head<2>());
+  const std::vector<Vec2> outline = plan_of(seen.supports.front());
   std::vector<char> beyond(seen.points.size(), 0);
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
     const Vec3& p = seen.points[i];
     if (seen.support_of_point[i] >= 0 || seen.supports.front().plane.signed_distance(p) < 0.0) continue;
-    beyond[i] = !outline.empty() && !inside_outline(outline, p.head<2>(), kOutside);
+    beyond[i] = !outline.empty() && !inside_convex(outline, p.head<2>(), kOutside);
     const bool behind = std::any_of(seen.supports.begin() + 1, seen.supports.end(), [&](const Support& s) {
       return s.kind == SupportKind::wall && s.plane.signed_distance(p) < -4.0 * seen.graph.sigma[i] && s.plane.signed_distance(p) > -0.1;
     });
@@ -79,9 +80,7 @@ bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_
   for (const Support& support : seen.supports) {
     std::vector<double> height;
     for (const int i : part) height.push_back(support.plane.signed_distance(seen.points[i]) / seen.graph.sigma[i]);
-    const auto high = height.begin() + static_cast<std::ptrdiff_t>(height.size() * 9 / 10);
-    std::nth_element(height.begin(), high, height.end());
-    if (std::abs(*high) < kLowest) return true;
+    if (std::abs(quantile(std::move(height), 0.9)) < kLowest) return true;
   }
   return false;
 }

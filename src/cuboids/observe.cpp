@@ -8,6 +8,7 @@
 #include "cuboids/observation.h"
 #include "cuboids/supports.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -49,10 +50,9 @@ void check_points(const RgbdFrame& frame, const Measured& measured) {
                      fmt::format("at least {}", kFewestDepths));
   std::vector<double> depth;
   for (std::size_t i = 0; i < measured.points.size(); i += 11) depth.push_back(measured.points[i].norm());
-  const auto middle = depth.begin() + static_cast<std::ptrdiff_t>(depth.size() / 2);
-  std::nth_element(depth.begin(), middle, depth.end());
-  if (*middle > kFarthest)
-    throw InputError(frame.name, field, fmt::format("a median distance of {:.0f} m", *middle),
+  const double middle = median(std::move(depth));
+  if (middle > kFarthest)
+    throw InputError(frame.name, field, fmt::format("a median distance of {:.0f} m", middle),
                      "metres after division by depth_scale");
 }
 

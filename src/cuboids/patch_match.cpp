@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -162,9 +164,7 @@ void PatchMatch::improve(Random& random) {
 std::vector<Color> PatchMatch::vote(const std::vector<Color>& pixels) const {
   std::vector<int> costs;
   for (const int t : targets_) costs.push_back(matches_[t].cost);
-  const auto third_quarter = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() * 3 / 4);
-  std::nth_element(costs.begin(), third_quarter, costs.end());
-  const double scale = std::max(1.0, static_cast<double>(*third_quarter));
+  const double scale = std::max(1.0, static_cast<double>(quantile(std::move(costs), 0.75)));
 
   std::vector<std::array<double, 4>> sums(hole_.size(), {0, 0, 0, 0});
   for (const int t : targets_) {

@@ -9,6 +9,7 @@
 #include "cuboids/complete.h"
 #include "cuboids/depth_noise.h"
 #include "cuboids/supports.h"
+#include "unseen/core/convex.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -32,12 +33,11 @@ Observation observed(const RgbdFrame& frame, const Completion& scene, const Opti
   for (std::size_t s = 0; s < scene.supports.size(); ++s) {
     const Support& support = scene.supports[s];
     const bool desk = support.kind == SupportKind::desk;  // what is below it is not its own
-    std::vector<Vec2> outline;
-    for (const Vec3& p : support.outline) outline.push_back(p.head<2>());
+    const std::vector<Vec2> outline = plan_of(support);
     for (std::size_t i = 0; i < seen.points.size(); ++i) {
       const double above = support.plane.signed_distance(seen.points[i]), near = kSideSigmas * seen.graph.sigma[i];
       if (above >= near) continue;
-      if (desk && (above < -near || (!outline.empty() && !inside_outline(outline, seen.points[i].head<2>(), near)))) continue;
+      if (desk && (above < -near || (!outline.empty() && !inside_convex(outline, seen.points[i].head<2>(), near)))) continue;
       seen.support_of_point[i] = static_cast<int>(s);
     }
   }

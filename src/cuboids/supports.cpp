@@ -9,6 +9,9 @@
 #include <limits>
 #include <numeric>
 
+#include "unseen/core/convex.h"
+#include "unseen/core/quantile.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -38,7 +41,7 @@ void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v) {
   }
   for (int c = 0; c < kColumns; ++c)
     if (lowest[c].y() < 1e30) corners.insert(corners.end(), {lowest[c], highest[c]});
-  level.outline = convex_outline(std::move(corners));
+  level.outline = convex_hull(std::move(corners));
 }
 
 /// Points that stand on each level: it is the highest below them, and they are on no level themselves. They are counted as the
@@ -56,7 +59,7 @@ void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, c
     double least = kCarryHeight;
     for (Level& level : levels) {
       const double height = level.plane.signed_distance(scan.points[i]);
-      if (height > 6.0 * scan.graph.sigma[i] && height < least && inside_outline(level.outline, place, 0.0)) {
+      if (height > 6.0 * scan.graph.sigma[i] && height < least && inside_convex(level.outline, place, 0.0)) {
         least = height;
         carrier = &level;
       }
@@ -71,9 +74,7 @@ double scene_radius(const Scan& scan) {
   mean /= static_cast<double>(scan.points.size());
   std::vector<double> distance;
   for (std::size_t i = 0; i < scan.points.size(); i += 7) distance.push_back((scan.points[i] - mean).norm());
-  const auto at = distance.begin() + static_cast<std::ptrdiff_t>(distance.size() * 9 / 10);
-  std::nth_element(distance.begin(), at, distance.end());
-  return *at;
+  return quantile(std::move(distance), 0.9);
 }
 
 /// Whether (almost) nothing was seen behind a plane within its outline.
@@ -83,7 +84,7 @@ bool bounds_the_scene(const Scan& scan, const Level& level, const Vec3& u, const
     const double d = level.plane.signed_distance(scan.points[i]);
     if (std::abs(d) < 6.0 * scan.graph.sigma[i]) continue;
     const Vec2 place(u.dot(scan.points[i]), v.dot(scan.points[i]));
-    if (!inside_outline(level.outline, place, 0.0)) continue;
+    if (!inside_convex(level.outline, place, 0.0)) continue;
     ++(d < 0 ? behind : before);
   }
   return static_cast<double>(behind) <= kMostBehindWall * static_cast<double>(behind + before);
@@ -114,7 +115,7 @@ void extend_down(Level& wall, const Plane& ground, const Vec3& across, const Vec
     const double height = ground.signed_distance(wall.plane.project(p.x() * across + p.y() * along));
     corners.emplace_back(p.x(), p.y() - std::max(0.0, height) / along.dot(ground.normal));
   }
-  wall.outline = convex_outline(std::move(corners));
+  wall.outline = convex_hull(std::move(corners));
 }
 
 std::vector<Vec3> lifted(const Level& level, const Vec3& u, const Vec3& v) {
@@ -135,34 +136,10 @@ void add_support(FoundSupports& found, const Scan& scan, const Level& level, Sup
 
 }  // namespace
 
-std::vector<Vec2> convex_outline(std::vector<Vec2> points) {
-  const auto less = [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); };
-  std::sort(points.begin(), points.end(), less);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return points;
-  std::vector<Vec2> hull(2 * points.size());
-  std::size_t k = 0;
-  const auto push = [&](const Vec2& p, std::size_t base) {
-    while (k >= base + 2) {
-      const Vec2 a = hull[k - 1] - hull[k - 2], b = p - hull[k - 2];
-      if (a.x() * b.y() - a.y() * b.x() > 0.0) break;
-      --k;
-    }
-    hull[k++] = p;
-  };
-  for (const Vec2& p : points) push(p, 0);
-  const std::size_t base = k - 1;
-  for (std::size_t i = points.size() - 1; i-- > 0;) push(points[i], base);
-  hull.resize(k - 1);
-  return hull;
-}
-
-bool inside_outline(std::span<const Vec2> outline, const Vec2& p, double margin) {
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 edge = outline[(i + 1) % outline.size()] - outline[i], d = p - outline[i];
-    if (edge.x() * d.y() - edge.y() * d.x() < -margin * edge.norm()) return false;
-  }
-  return !outline.empty();
+std::vector<Vec2> plan_of(const Support& support) {
+  std::vector<Vec2> plan;
+  for (const Vec3& p : support.outline) plan.push_back(p.head<2>());
+  return plan;
 }
 
 FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {

@@ -11,10 +11,6 @@
 
 namespace unseen::cuboids {
 
-/// Counter-clockwise convex outline of points in the plane.
-std::vector<Vec2> convex_outline(std::vector<Vec2> points);
-bool inside_outline(std::span<const Vec2> outline, const Vec2& p, double margin);
-
 /// Static surfaces among the faces of a frame, in the camera's coordinates; the first is the ground.
 struct FoundSupports {
   Vec3 up = Vec3::UnitY();
@@ -39,5 +35,8 @@ bool is_turned(const Vec3& up);
 /// Ground: the lowest large horizontal surface that carries things. Then, if masks name all things (`unnamed`: the faces are what no
 /// mask names), desks: others that carry some; walls that bound what was seen, ceilings. Empty supports if there is no ground.
 FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed);
+
+/// The outline of a support in world coordinates as seen from above; empty = without end.
+std::vector<Vec2> plan_of(const Support& support);
 
 }  // namespace unseen::cuboids

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "unseen/core/convex.h"
+
 namespace unseen::interactions {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 constexpr double kLeastArea = 1e-12;  ///< m²; smaller pieces are rounding
 
@@ -49,12 +49,6 @@ bool cross_each_other(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d
   return cross(b - a, c - a) * cross(b - a, d - a) < 0 && cross(d - c, a - c) * cross(d - c, b - c) < 0;
 }
 
-bool contains(const Polygon& polygon, const Vec2& p) {
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-    if (cross(polygon[(i + 1) % polygon.size()] - polygon[i], p - polygon[i]) < 0) return false;
-  return true;
-}
-
 }  // namespace
 
 double area(const Polygon& polygon) {
@@ -92,7 +86,7 @@ std::vector<Polygon> footprint(const Object& object) {
 }
 
 double distance(const Vec2& from, const Vec2& to, const Polygon& polygon) {
-  if (contains(polygon, from) || contains(polygon, to)) return 0;
+  if (inside_convex(polygon, from) || inside_convex(polygon, to)) return 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];

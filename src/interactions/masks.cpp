@@ -6,27 +6,10 @@
 #include <cmath>
 
 #include "interactions/footprint.h"
+#include "unseen/core/convex.h"
 
 namespace unseen::interactions {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// The convex hull, counter-clockwise (Andrew's monotone chain).
-Polygon hull_of(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
-  Polygon hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t start = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= start + 2 && cross(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();  // where the other side begins
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
 
 /// A box in the picture; empty if a corner is not in front of the camera.
 Polygon outline_of(const OrientedBox& box, const View& view) {
@@ -38,13 +21,7 @@ Polygon outline_of(const OrientedBox& box, const View& view) {
     if (p.z() < kNearest) return {};
     corners.push_back(view.camera.project(p));
   }
-  return hull_of(std::move(corners));
-}
-
-bool contains(const Polygon& polygon, const Vec2& p) {
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-    if (cross(polygon[(i + 1) % polygon.size()] - polygon[i], p - polygon[i]) < 0) return false;
-  return !polygon.empty();
+  return convex_hull(std::move(corners));
 }
 
 bool is_inside(const Mask& mask, int x, int y) {
@@ -75,7 +52,7 @@ std::optional<double> share_in_masks(const Object& object, std::span<const Mask>
   std::size_t all = 0, covered = 0;
   for (int y = static_cast<int>(from.y()); y <= to.y(); y += step)
     for (int x = static_cast<int>(from.x()); x <= to.x(); x += step) {
-      if (std::none_of(outline.begin(), outline.end(), [&](const Polygon& polygon) { return contains(polygon, Vec2(x, y)); })) continue;
+      if (std::none_of(outline.begin(), outline.end(), [&](const Polygon& polygon) { return inside_convex(polygon, Vec2(x, y)); })) continue;
       ++all;
       covered += std::any_of(same.begin(), same.end(), [&](const Mask* mask) { return is_inside(*mask, x, y); });
     }

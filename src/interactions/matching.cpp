@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::interactions {
 namespace {
 
@@ -14,9 +16,7 @@ double median_depth(const std::vector<const Sight*>& sights) {
   for (const Sight* sight : sights)
     if (sight->depth > 0) depths.push_back(sight->depth);
   if (depths.empty()) return kUsual;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  return median(std::move(depths));
 }
 
 /// The fewest frames between neighbouring sights from `first` to `last`; 0 without neighbours.

@@ -90,6 +90,7 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path) {
     const fs::path parent = target_.parent_path();
     fs::create_directories(parent);
     const bool exists = fs::exists(target_);
+    if (!exists && fs::is_symlink(target_)) fail(path, "a link to what does not exist");
     if (exists && !fs::is_directory(target_)) fail(path, "a file of that name");
     if (exists && ::access(target_.c_str(), W_OK | X_OK) != 0) fail(path, "no permission to write");
     std::error_code error;
@@ -134,7 +135,7 @@ std::vector<std::string> OutputFolder::commit() {
       fs::remove_all(temporary_);
     }
   } catch (const fs::filesystem_error& fault) {
-    fail(path_, fault.what());
+    fail(path_, fault.code().message());
   }
   committed_ = true;
   return notes;

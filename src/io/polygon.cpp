@@ -7,10 +7,6 @@
 namespace unseen::io {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
 /// The corners in the plane of the polygon, counter-clockwise.
 std::vector<Vec2> flatten(const std::vector<std::uint32_t>& corners, const TriangleMesh& mesh) {
   Vec3 normal = Vec3::Zero();
@@ -30,12 +26,12 @@ std::vector<Vec2> flatten(const std::vector<std::uint32_t>& corners, const Trian
 
 bool is_ear(const std::vector<Vec2>& p, std::size_t i) {
   const std::size_t n = p.size(), before = (i + n - 1) % n, after = (i + 1) % n;
-  if (!(cross(p[before], p[i], p[after]) > 0.0)) return false;
+  if (!(turn(p[before], p[i], p[after]) > 0.0)) return false;
   for (std::size_t k = 0; k < n; ++k) {
     if (k == before || k == i || k == after) continue;
     if (p[k] == p[before] || p[k] == p[i] || p[k] == p[after]) continue;
-    if (cross(p[before], p[i], p[k]) >= 0.0 && cross(p[i], p[after], p[k]) >= 0.0 &&
-        cross(p[after], p[before], p[k]) >= 0.0)
+    if (turn(p[before], p[i], p[k]) >= 0.0 && turn(p[i], p[after], p[k]) >= 0.0 &&
+        turn(p[after], p[before], p[k]) >= 0.0)
       return false;
   }
   return true;

@@ -8,18 +8,13 @@
 
 #include "io/rgbd_parts.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::io {
 namespace {
 
 constexpr double kFarthest = 100.0;  ///< m: no depth camera sees farther
 constexpr double kNearest = 0.05;    ///< m
-
-double quantile(std::vector<float> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// The usual scale that puts a middle depth, in stored units, into a room.
 std::string advice(double stored) {

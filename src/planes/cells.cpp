@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::planes {
 namespace {
 
@@ -134,12 +136,10 @@ void adapt_tolerance(Cells& cells, const VoxelGrid& grid, const std::optional<Ve
     factor[i] = viewpoint ? (m.mean - *viewpoint).norm()
                           : std::sqrt(std::max(0.0, cells.normal[i].dot(m.scatter * cells.normal[i])) / m.count);
   }
-  std::vector<double> sorted = factor;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  if (!(*middle > 0.0)) return;
+  const double usual = median(factor);
+  if (!(usual > 0.0)) return;
   for (std::size_t i = 0; i < grid.size(); ++i)
-    cells.tolerance[i] = grid.tolerance * std::clamp(factor[i] / *middle, 1.0, 4.0);
+    cells.tolerance[i] = grid.tolerance * std::clamp(factor[i] / usual, 1.0, 4.0);
 }
 
 }  // namespace unseen::planes

@@ -10,6 +10,7 @@
 
 #include "planes/triangle_tree.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 #include "unseen/core/random.h"
 
 namespace unseen::planes {
@@ -70,9 +71,7 @@ AngleScore score_pairs(const std::vector<std::size_t>& used, const std::vector<i
   score.deviation = std::sqrt(squares / count);
   score.below_tenth = share_below(radians(0.1));
   score.below_one = share_below(radians(1.0));
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  score.median = *middle;
+  score.median = median(std::move(errors));
   return score;
 }
 

@@ -75,7 +75,7 @@ bool is_of_depth(const std::vector<Probe>& probes, const Vec3& axis, const Space
     across += line_angle(axis, p.fit.normal) > kSameAxis;
   }
   return across <= kAcross * exact + kStray * static_cast<double>(probes.size()) &&
-         median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) > kFacing;
+         weighted_median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) > kFacing;
 }
 
 /// The levels of points along an axis, if much of them lie on values that stand out among those `least` (m) away and less.
@@ -113,7 +113,7 @@ double step_of_levels(const Survey& survey, const Space& space, const std::vecto
   for (const Vec3& axis : axes_of_levels(probes)) {
     const std::optional<Levels> levels = find_levels(survey.sample, axis, kLeastStep * scale);
     if (!levels || !is_of_depth(probes, axis, space)) continue;
-    const double step = median(probes, space, [&](const Probe& p) { return levels->step_at(survey.sample[p.index]); });
+    const double step = weighted_median(probes, space, [&](const Probe& p) { return levels->step_at(survey.sample[p.index]); });
     second = std::max(second, std::min(step, widest));
     widest = std::max(widest, step);
   }

@@ -7,6 +7,8 @@
 #include <span>
 #include <tuple>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::planes {
 namespace {
 
@@ -76,12 +78,6 @@ class Cover {
   KeyTable table_;
   std::vector<std::vector<std::size_t>> reaching_;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

@@ -10,6 +10,8 @@
 #include <map>
 #include <mutex>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::planes {
 namespace {
 
@@ -76,9 +78,7 @@ double half_typical_noise(const VoxelGrid& grid, const Space& space, const CellS
   if (regions.empty()) return 0.0;
   std::vector<double> rms;
   for (const std::vector<int>& region : regions) rms.push_back(fit_plane(sum_of(grid, region), space).rms);
-  const auto middle = rms.begin() + static_cast<std::ptrdiff_t>(rms.size() / 2);
-  std::nth_element(rms.begin(), middle, rms.end());
-  return 0.5 * *middle;
+  return 0.5 * median(std::move(rms));
 }
 
 using Pairs = std::vector<std::pair<int, int>>;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "planes/sample_slabs.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::planes {
 namespace {
@@ -107,13 +108,12 @@ std::vector<Probe> flat_ones(const std::vector<Probe>& probes, const Space& spac
 std::vector<double> weights_of(const std::vector<Probe>& probes, const Space& space) {
   std::vector<double> spacing;
   for (const Probe& p : probes) spacing.push_back(p.spacing);
-  const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
-  std::nth_element(spacing.begin(), middle, spacing.end());
+  const double usual = median(std::move(spacing));
   std::vector<double> weights;
   for (const Probe& p : probes) {
-    const bool stray = p.spacing > kFar * *middle && p.fit.rms > kThick * p.spacing;
+    const bool stray = p.spacing > kFar * usual && p.fit.rms > kThick * p.spacing;
     const double sparsest = p.fit.rms < kEven * p.spacing ? kSparsestSurface : kSparsest;
-    const double side = stray ? 0.0 : std::min(p.spacing, sparsest * *middle);
+    const double side = stray ? 0.0 : std::min(p.spacing, sparsest * usual);
     weights.push_back(space.is_2d() ? side : side * side);
   }
   return weights;

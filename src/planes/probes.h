@@ -42,7 +42,7 @@ std::vector<double> weights_of(const std::vector<Probe>& probes, const Space& sp
 
 /// The median of value(probe) by these weights.
 template <class F>
-double median(const std::vector<Probe>& probes, const Space& space, F value) {
+double weighted_median(const std::vector<Probe>& probes, const Space& space, F value) {
   const std::vector<double> weights = weights_of(probes, space);
   std::vector<std::pair<double, double>> weighted;
   for (std::size_t i = 0; i < probes.size(); ++i) weighted.emplace_back(value(probes[i]), weights[i]);

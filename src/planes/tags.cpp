@@ -7,6 +7,7 @@
 #include <map>
 
 #include "planes/describe.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::planes {
 namespace {
@@ -143,8 +144,7 @@ void tag_planes(Arrangement& result) {
     result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere);
     if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
   }
-  std::sort(rooms.begin(), rooms.end());
-  const double room = rooms.empty() ? high - low : rooms[rooms.size() / 2];
+  const double room = rooms.empty() ? high - low : median(std::move(rooms));
   for (std::size_t i = 0; i < result.planes.size(); ++i) {
     ArrangedPlane& p = result.planes[i];
     if (!p.tag.empty()) continue;

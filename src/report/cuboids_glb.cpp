@@ -17,12 +17,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 void add_support(GlbBuilder& b, const std::string& name, const std::vector<Vec3>& polygon) {
   Triangles triangles;
   for (std::uint32_t k = 2; k < polygon.size(); ++k) triangles.push_back({0, k - 1, k});  // outlines are convex
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.material = b.add_material(name, kSupportColor, kSupport);
-  primitive.attributes["POSITION"] = b.add_positions(polygon);
-  primitive.indices = b.add_triangles(triangles);
-  b.add_node(name, std::move(primitive));
+  b.add_node(name, b.surface(polygon, triangles, b.add_material(name, kSupportColor, kSupport)));
 }
 
 }  // namespace

@@ -13,11 +13,6 @@ namespace unseen::report {
 using FlatPoints = std::vector<Vec2>;
 using Chain = std::vector<std::uint32_t>;
 
-/// Twice the signed area of a triangle.
-inline double turn(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
 /// True if the direction from b to `target` leaves into the inside at corner a → b → c.
 inline bool leaves_inside(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& target) {
   const double before = turn(a, b, target), after = turn(b, c, target);

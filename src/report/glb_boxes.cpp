@@ -25,12 +25,7 @@ tinygltf::Primitive boxes_primitive(GlbBuilder& b, const std::vector<OrientedBox
       triangles.push_back({first, first + 2, first + 3});
     }
   }
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.material = material;
-  primitive.attributes["POSITION"] = b.add_positions(vertices);
-  primitive.indices = b.add_triangles(triangles);
-  return primitive;
+  return b.surface(vertices, triangles, material);
 }
 
 }  // namespace unseen::report

@@ -79,6 +79,15 @@ int GlbBuilder::add_empty_node(const std::string& name, const Vec3& position, co
   return id;
 }
 
+tinygltf::Primitive GlbBuilder::surface(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles, int material) {
+  tinygltf::Primitive primitive;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  primitive.material = material;
+  primitive.attributes["POSITION"] = add_positions(vertices);
+  primitive.indices = add_triangles(triangles);
+  return primitive;
+}
+
 int GlbBuilder::add_node(const std::string& name, tinygltf::Primitive primitive) {
   tinygltf::Mesh mesh;
   mesh.name = name;

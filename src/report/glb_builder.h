@@ -49,6 +49,7 @@ struct GlbBuilder {
   int add_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
   /// A dull material; an opacity below 1 makes it translucent.
   int add_material(const std::string& name, const Rgb& color, double opacity = 1.0);
+  tinygltf::Primitive surface(const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles, int material);
   /// A node below the root that shows one primitive; gives its index.
   int add_node(const std::string& name, tinygltf::Primitive primitive);
   /// A node below the root that shows nothing yet.

@@ -2,7 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "report/interactions_motion.h"
 
-#include <algorithm>
+
+#include "unseen/core/quantile.h"
 
 namespace unseen::report {
 
@@ -14,8 +15,7 @@ std::array<double, kBones.size()> bone_lengths(const Person& person) {
   for (std::size_t b = 0; b < kBones.size(); ++b) {
     std::vector<double> all;
     for (const PersonFrame& f : person.frames) all.push_back((f.pose.col(kBones[b][1]) - f.pose.col(kBones[b][0])).norm());
-    std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
-    lengths[b] = all[all.size() / 2];
+    lengths[b] = median(std::move(all));
   }
   return lengths;
 }

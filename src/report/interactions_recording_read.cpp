@@ -9,6 +9,7 @@
 #include "report/i3db_parts.h"
 #include "unseen/core/error.h"
 #include "unseen/core/level.h"
+#include "unseen/core/quantile.h"
 #include "unseen/report/interactions_recording.h"
 
 namespace unseen::report {
@@ -82,11 +83,6 @@ std::vector<RecordedFrame> read_person(const fs::path& path) {
   return frames;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
 /// Up in camera coordinates: each box's axis nearest to the image's up; the mean of those that agree with their median, because some
 /// parts are mounted at a slant.
 Vec3 up_of(const std::vector<Object>& objects) {
@@ -115,9 +111,7 @@ double floor_of(const Recording& r) {
   std::vector<double> ankles, bottoms;
   for (const auto& person : r.people)
     for (const RecordedFrame& f : person) ankles.push_back(std::min(f.pose(2, right_ankle), f.pose(2, left_ankle)));
-  const auto low = ankles.begin() + static_cast<std::ptrdiff_t>(ankles.size() / 20);
-  std::nth_element(ankles.begin(), low, ankles.end());
-  const double below_feet = *low - kAnkleHeight;
+  const double below_feet = quantile(std::move(ankles), 0.05) - kAnkleHeight;
   constexpr double kStands = 0.25;  // m
   for (const Object& object : r.objects) {
     double bottom = below_feet + kStands;

@@ -7,6 +7,7 @@
 
 #include "report/interactions_take_parts.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::report {
 namespace {
@@ -26,10 +27,7 @@ std::vector<double> sure_places(const std::vector<Detection>& detections, int ro
 
 /// Nearly the largest: a few joints may be anywhere.
 int reach_of(std::vector<double> places) {
-  if (places.empty()) return 0;
-  const auto at = places.begin() + static_cast<std::ptrdiff_t>((places.size() - 1) * 99 / 100);
-  std::nth_element(places.begin(), at, places.end());
-  return static_cast<int>(std::clamp(*at, 0.0, 1e5));
+  return static_cast<int>(std::clamp(quantile(std::move(places), 0.99), 0.0, 1e5));
 }
 
 /// The smallest usual picture, lying or upright, in which the joints are.

@@ -9,6 +9,7 @@
 #include "report/i3db_parts.h"
 #include "report/interactions_take_parts.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::report {
 
@@ -33,10 +34,9 @@ void check_statures(const std::filesystem::path& file, const std::vector<Detecti
   for (const Detection& d : detections)
     if (const double stature = d.local ? stature_of(*d.local) : 0.0; stature > 0.0) statures.push_back(stature);
   if (statures.empty()) return;
-  const auto middle = statures.begin() + static_cast<std::ptrdiff_t>(statures.size() / 2);
-  std::nth_element(statures.begin(), middle, statures.end());
-  if (*middle < kSmallest || *middle > kTallest)
-    throw InputError(file.string(), "frames", fmt::format("people {:.4g} m tall", *middle), fmt::format("{} to {} m: is the unit metres?", kSmallest, kTallest));
+  const double usual = median(std::move(statures));
+  if (usual < kSmallest || usual > kTallest)
+    throw InputError(file.string(), "frames", fmt::format("people {:.4g} m tall", usual), fmt::format("{} to {} m: is the unit metres?", kSmallest, kTallest));
 }
 
 }  // namespace

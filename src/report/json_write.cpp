@@ -5,17 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/overload.h"
 #include "unseen/core/version.h"
 
 namespace unseen::report {
 namespace {
-
-template <class... F>
-struct Overload : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overload(F...) -> Overload<F...>;
 
 Json value_of(const Option& option) {
   return std::visit(

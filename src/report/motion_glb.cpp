@@ -10,25 +10,16 @@ namespace {
 constexpr Rgb kFixedColor = {200, 200, 195};
 constexpr double kFixedOpacity = 0.6;
 
-tinygltf::Primitive surface(GlbBuilder& b, const std::vector<Vec3>& vertices, const std::vector<std::array<std::uint32_t, 3>>& triangles, int material) {
-  tinygltf::Primitive primitive;
-  primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  primitive.material = material;
-  primitive.attributes["POSITION"] = b.add_positions(vertices);
-  primitive.indices = b.add_triangles(triangles);
-  return primitive;
-}
-
 }  // namespace
 
 void add_moving(GlbBuilder& b, const std::string& name, const TriangleMesh& mesh, const Motion& motion, const Rgb& color) {
-  const int node = b.add_node(name, surface(b, mesh.vertices, mesh.triangles, b.add_material(name, color)));
+  const int node = b.add_node(name, b.surface(mesh.vertices, mesh.triangles, b.add_material(name, color)));
   b.add_motion(node, motion.times, motion.positions, motion.rotations);
 }
 
 void add_quad(GlbBuilder& b, const std::string& name, const std::vector<Vec3>& corners) {
   if (corners.empty()) return;
-  b.add_node(name, surface(b, corners, {{0, 1, 2}, {0, 2, 3}}, b.add_material(name, kFixedColor, kFixedOpacity)));
+  b.add_node(name, b.surface(corners, {{0, 1, 2}, {0, 2, 3}}, b.add_material(name, kFixedColor, kFixedOpacity)));
 }
 
 void add_camera(GlbBuilder& b, const RigidTransform& T_world_camera, const Camera& c) {

@@ -8,12 +8,12 @@ namespace unseen::report {
 namespace {
 
 tinygltf::Primitive surface_primitive(GlbBuilder& b, const Surface& surface, int frame) {
-  tinygltf::Primitive primitive;
-  primitive.material = frame;
-  primitive.attributes["POSITION"] = b.add_positions(surface.vertices);
-  primitive.mode = surface.triangles.empty() ? TINYGLTF_MODE_LINE : TINYGLTF_MODE_TRIANGLES;
-  if (!surface.triangles.empty()) primitive.indices = b.add_triangles(surface.triangles);
-  return primitive;
+  if (!surface.triangles.empty()) return b.surface(surface.vertices, surface.triangles, frame);
+  tinygltf::Primitive line;
+  line.mode = TINYGLTF_MODE_LINE;
+  line.material = frame;
+  line.attributes["POSITION"] = b.add_positions(surface.vertices);
+  return line;
 }
 
 std::vector<Rgb> point_colors(const planes::Arrangement& a, const PointSample& points) {

@@ -2,9 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "report/polygon_size.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "unseen/core/convex.h"
 
 namespace unseen::report {
 namespace {
@@ -14,26 +15,6 @@ Vec2 sides_along(const Ring& points, const Vec2& along) {
   Eigen::AlignedBox2d box;
   for (const Vec2& p : points) box.extend(Vec2(along.dot(p), along.x() * p.y() - along.y() * p.x()));
   return box.sizes();
-}
-
-/// Corners of the convex hull, counter-clockwise, none in the middle of a side (Andrew, "Another efficient
-/// algorithm for convex hulls in two dimensions", 1979).
-Ring convex_hull(Ring points) {
-  std::sort(points.begin(), points.end(),
-            [](const Vec2& a, const Vec2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
-  Ring hull;
-  const auto add_chain = [&hull](auto first, auto last) {
-    const std::size_t start = hull.size();
-    for (auto p = first; p != last; ++p) {
-      while (hull.size() >= start + 2 && doubled_area({hull[hull.size() - 2], hull.back(), *p}) <= 0)
-        hull.pop_back();
-      hull.push_back(*p);
-    }
-    hull.pop_back();  // the first of the other chain
-  };
-  add_chain(points.begin(), points.end());
-  add_chain(points.rbegin(), points.rend());
-  return hull;
 }
 
 bool is_upright(const planes::ArrangedPlane& plane) {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "report/json_write.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::report {
 namespace {
@@ -35,10 +36,6 @@ Info info_of(const Database& database) {
 }
 
 constexpr std::array kQuantiles = {0.0, 0.1, 0.5, 0.9, 1.0};
-
-double quantile(const std::vector<double>& ascending, double q) {
-  return ascending[static_cast<std::size_t>(q * static_cast<double>(ascending.size() - 1) + 0.5)];
-}
 
 }  // namespace
 

@@ -76,6 +76,8 @@ TEST(OutputFolder, UnwritablePlacesAreKnownAtOnce) {
   expect_error([&] { OutputFolder out(folder / "file"); }, {"file", "output"});
   expect_error([&] { OutputFolder out(folder / "file/out"); }, {"out", "output"});
   expect_error([&] { OutputFolder out("/proc/unseen"); }, {"/proc/unseen", "output"});
+  fs::create_symlink(folder / "gone", folder / "link");
+  expect_error([&] { OutputFolder out(folder / "link"); }, {"link", "output", "a link to what does not exist"});
 }
 
 TEST(AtomicFile, ReplacesOrLeavesAlone) {

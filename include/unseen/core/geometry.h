@@ -32,6 +32,19 @@ inline double line_angle(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
+/// The matrix of v × ·.
+inline Mat3 cross_matrix(const Vec3& v) {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// Area of the parallelogram of two vectors in the plane; positive if b lies to the left of a.
+inline double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Twice the area of a triangle in the plane; positive if its corners run counter-clockwise.
+inline double turn(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
+
 /// A unit vector orthogonal to unit vector `n`; the same one for the same `n` on every machine.
 inline Vec3 any_orthogonal(const Vec3& n) {
   const Vec3 axis = std::abs(n.x()) <= std::abs(n.y()) && std::abs(n.x()) <= std::abs(n.z()) ? Vec3::UnitX()

@@ -21,7 +21,7 @@ struct Option {
   std::string help;
   double min = -std::numeric_limits<double>::infinity();  ///< legal range, ends included
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;  ///< for strings: the legal values
+  std::vector<std::string> choices = {};  ///< for strings: the legal values
   std::vector<std::string> parts = {};  ///< for lists of as many numbers: what each is; empty = as many as one likes
   bool rising = false;                  ///< each of them below the next
 
