@@ -12,7 +12,8 @@ namespace {
 constexpr double kSplitGain = 0.6;       // a split must leave less than this share of the squared error
 constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature, unless
 constexpr double kShallow = 0.02, kShallowGain = 0.3;  // they are above this, rad, and leave less than this share,
-constexpr std::size_t kShallowCells = 100;  // of so many voxels or more
+constexpr std::size_t kShallowCells = 100;  // of so many voxels or more,
+constexpr double kStep = 4.0;            // or parallel sides are so many times their noise apart where they meet
 constexpr double kBent = 0.25;            // of the tolerance: what is bent several times is off one plane by more, in the mean: noise may be correlated
 constexpr int kMostPieces = 5;           // straight ones, of what is bent several times
 constexpr int kSlices = 12;
@@ -43,12 +44,26 @@ Slices slices_along(const Vec3& axis, const VoxelGrid& grid, const std::vector<i
   return slices;
 }
 
+/// A run of slices and its plane.
+struct Piece {
+  Moments sum;
+  int slices;
+  PlaneFit fit;
+};
+
+/// How far the planes of two runs of slices are apart where they meet, if they are parallel but for a shallow hinge.
+double step_between(const Piece& a, const Piece& b) {
+  const double share = static_cast<double>(a.slices) / (a.slices + b.slices);
+  const Vec3 apart = b.sum.mean - a.sum.mean;
+  return std::abs(share * a.fit.normal.dot(apart) + (1.0 - share) * std::copysign(1.0, a.fit.normal.dot(b.fit.normal)) * b.fit.normal.dot(apart));
+}
+
 struct Cut {
   int at = 0;  ///< slices below it are one side; 0 = none
   double error = std::numeric_limits<double>::infinity();
 };
 
-/// The single cut that leaves least, if that is less than `most`. Flat hinges must leave less than `shallow`.
+/// The single cut that leaves least, if that is less than `most`. Flat hinges and steps must leave less than `shallow`.
 Cut best_single(const std::vector<Moments>& slice, const Space& space, double most, double shallow) {
   const double least = space.is_2d() ? 5 : 10;  // points
   std::vector<Moments> above(kSlices + 1);
@@ -58,11 +73,12 @@ Cut best_single(const std::vector<Moments>& slice, const Space& space, double mo
   for (int c = 1; c < kSlices; ++c) {
     below += slice[c - 1];
     if (below.count < least || above[c].count < least) continue;
-    const PlaneFit a = fit_plane(below, space), b = fit_plane(above[c], space);
-    const double error = a.rms * a.rms * below.count + b.rms * b.rms * above[c].count;
+    const Piece a{below, c, fit_plane(below, space)}, b{above[c], kSlices - c, fit_plane(above[c], space)};
+    const double error = a.fit.rms * a.fit.rms * below.count + b.fit.rms * b.fit.rms * above[c].count;
     if (error >= best.error) continue;
-    const double hinge = line_angle(a.normal, b.normal);
-    if (hinge < kSplitAngle && (hinge < kShallow || error > shallow)) continue;
+    const double hinge = line_angle(a.fit.normal, b.fit.normal);
+    if (hinge < kSplitAngle && error > shallow) continue;
+    if (hinge < kShallow && step_between(a, b) < kStep * std::sqrt(error / (below.count + above[c].count))) continue;
     best = {c, error};
   }
   return best;
@@ -92,8 +108,8 @@ Pieces best_pieces(const std::vector<std::vector<double>>& error) {
   return pieces;
 }
 
-/// The cut at the sharpest bend of the fewest straight pieces that explain most of what one plane does not, but planes of single slices do; with
-/// the error of most pieces.
+/// Of the fewest straight pieces that explain most of what one plane does not, but planes of single slices do: the cut at the sharpest bend, or at the
+/// highest step if nothing is bent; with the error of most pieces.
 Cut sharpest_bend(const std::vector<Moments>& slice, const Space& space, double tolerance) {
   constexpr double kFewest = 10;  // points in a slice
   std::vector<std::vector<double>> error(kSlices, std::vector<double>(kSlices + 1, 0.0));
@@ -109,22 +125,31 @@ Cut sharpest_bend(const std::vector<Moments>& slice, const Space& space, double 
     count += slice[i].count;
   }
   const double bent = error[0][kSlices] - by_slices;
-  if (bent < std::pow(kBent * tolerance, 2) * count) return {};
+  const double least_bent = std::pow(kBent * tolerance, 2) * count;
+  if (bent < std::min(least_bent, by_slices)) return {};
   const Pieces pieces = best_pieces(error);
   int k = 2;
   while (k <= kMostPieces && pieces.error[k] - by_slices > kShallowGain * bent) ++k;
   if (k > kMostPieces) return {};
   const std::vector<int>& ends = pieces.ends[k];
-  std::vector<Vec3> normals;
+  std::vector<Piece> straight;
   for (std::size_t p = 0; p + 1 < ends.size(); ++p) {
-    Moments sum;
-    for (int i = ends[p + 1]; i < ends[p]; ++i) sum += slice[i];
-    normals.push_back(fit_plane(sum, space).normal);
+    Piece piece{{}, ends[p] - ends[p + 1], {}};
+    for (int i = ends[p + 1]; i < ends[p]; ++i) piece.sum += slice[i];
+    piece.fit = fit_plane(piece.sum, space);
+    straight.push_back(std::move(piece));
   }
   Cut cut{0, pieces.error[kMostPieces]};
-  double sharpest = kShallow;
-  for (std::size_t p = 0; p + 1 < normals.size(); ++p)
-    if (const double bend = line_angle(normals[p], normals[p + 1]); bend > sharpest) sharpest = bend, cut.at = ends[p + 1];
+  double sharpest = bent < least_bent ? std::numeric_limits<double>::infinity() : kShallow;
+  double highest = kStep * std::sqrt(by_slices / count);
+  int bend_at = 0, step_at = 0;
+  for (std::size_t p = 0; p + 1 < straight.size(); ++p) {
+    const double bend = line_angle(straight[p].fit.normal, straight[p + 1].fit.normal);
+    if (bend > sharpest) sharpest = bend, bend_at = ends[p + 1];
+    if (bend > kShallow) continue;
+    if (const double step = step_between(straight[p], straight[p + 1]); step > highest) highest = step, step_at = ends[p + 1];
+  }
+  cut.at = bend_at > 0 ? bend_at : step_at;
   return cut;
 }
 

@@ -9,8 +9,9 @@
 namespace unseen::planes {
 namespace {
 
-/// Patches of one orientation that adjoin within the scale, as groups; each is named by its largest patch.
+/// Patches of one orientation that adjoin within the scale and are not clearly apart, as groups; each is named by its largest patch.
 std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& normals, const Cells& cells) {
+  constexpr double kClearly = 4.0;  // times the noise
   const std::size_t n = patches.patches.size();
   std::vector<int> group(n);
   std::iota(group.begin(), group.end(), 0);
@@ -32,7 +33,8 @@ std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& 
   const auto tolerance = [&](int j) { return cells.tolerance[patches.patches[j].cells.front()]; };
   for (const Join& join : joins) {
     const int a = root(join.a), b = root(join.b);
-    if (a == b || gap(a, b) >= std::min(tolerance(join.a), tolerance(join.b))) continue;
+    const double noise = std::max(patches.patches[join.a].fit.rms, patches.patches[join.b].fit.rms);
+    if (a == b || gap(a, b) >= std::min({tolerance(join.a), tolerance(join.b), kClearly * noise})) continue;
     group[std::max(a, b)] = std::min(a, b);
     sums[std::min(a, b)] += sums[std::max(a, b)];
   }

@@ -60,14 +60,20 @@ void warn_of_lost_digits(const Survey& survey, double scale, Context& context) {
                            "Export them in double precision, or less an offset", farthest, step));
 }
 
-/// Warns where an estimated scale leaves most of the points without a plane.
-void warn_of_few(const Arrangement& result, std::size_t finite, Context& context) {
-  constexpr double kFew = 0.5;
+/// Warns where an estimated scale leaves most of the points without a plane, or a given one many because they are farther apart.
+void warn_of_few(PointSource& source, const Survey& seen, const Space& space, bool estimated, const Arrangement& result, Context& context) {
+  constexpr double kFew = 0.5, kMany = 0.1, kLarger = 1.5;
   std::size_t assigned = 0;
   for (const ArrangedPlane& p : result.planes) assigned += p.points;
-  if (result.planes.empty() || static_cast<double>(assigned) > kFew * static_cast<double>(finite)) return;
-  context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m: plants do not; if the scene is made of planes, another "
-                           "scale suits it better (--scale)", 100.0 * static_cast<double>(assigned) / static_cast<double>(finite), result.scale));
+  const double share = static_cast<double>(assigned) / static_cast<double>(seen.finite);
+  if (result.planes.empty() || share > (estimated ? kFew : 1.0 - kMany)) return;
+  if (estimated) {
+    context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m: plants do not; if the scene is made of planes, another "
+                             "scale suits it better (--scale)", 100.0 * share, result.scale));
+  } else if (const double scale = estimate_scale(source, seen, space, context).scale; scale > kLarger * result.scale) {
+    context.warn(fmt::format("{:.0f} % of the points lie on no plane at a scale of {:.3g} m: their spacing and noise ask for {:.3g} m", 100.0 * (1.0 - share),
+                             result.scale, scale));
+  }
 }
 
 /// Warns where planes are at right angles that the angles asked for do not name.
@@ -205,7 +211,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
     for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
     summary.counts[3].second = result.planes.size();
-    if (!options.scale && !options.relative_scale) warn_of_few(result, seen.finite, context);
+    warn_of_few(source, seen, space, !options.scale && !options.relative_scale, result, context);
   }
   Stage stage(context, summary, "relations");
   find_relations(angles, result);

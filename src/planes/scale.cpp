@@ -39,53 +39,58 @@ double wide_noise(const Survey& survey, const Space& space, const std::vector<Pr
 }
 
 double noise_of(const std::vector<Probe>& probes, const Space& space) {
-  return median(probes, space, [](const Probe& p) { return p.fit.rms; });
+  return weighted_median(probes, space, [](const Probe& p) { return p.fit.rms; });
 }
 
 /// The scale (m) that spacing and noise ask for.
 double scale_by(const std::vector<Probe>& probes, const Space& space) {
-  const double spacing = median(probes, space, [](const Probe& p) { return p.spacing; });
+  const double spacing = weighted_median(probes, space, [](const Probe& p) { return p.spacing; });
   return std::max(kSpacing * spacing, kNoise * noise_of(probes, space));
 }
 
 }  // namespace
 
+Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context) {
+  std::vector<Probe> probes = survey.share < 1.0 ? probe_source(source, survey, space, kProbes, kMostNeighbours, context)
+                                                 : probe_sample(survey, space, kProbes, kMostNeighbours, context);
+  if (!space.is_2d())
+    if (std::vector<Probe> flat = flat_ones(probes, space);
+        static_cast<double>(flat.size()) > kFewestFlat * static_cast<double>(probes.size()) && kPlants * scale_by(flat, space) < scale_by(probes, space))
+      probes = std::move(flat);
+  const double noise = noise_of(probes, space), scale = std::clamp(scale_by(probes, space), 1e-4 * survey.extent(), 0.1 * survey.extent());
+  const double step = step_of_levels(survey, space, probes, scale);
+  Scale result{scale, scale};
+  if (step == 0.0 && !space.is_2d() && kNoise * noise < scale)
+    result.tolerance = std::min(scale, std::max(kLeastTolerance * scale, kNoise * wide_noise(survey, space, probes)));
+  if (kStepsSpanned * step > scale) result = {kStepsSpanned * step, kStepsSpanned * step, step};
+  return result;
+}
+
 Scale choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
                    Context& context) {
   const double extent = survey.extent();
-  double scale = 0, tolerance = std::numeric_limits<double>::infinity();
+  Scale scale;
   if (options.scale) {
-    scale = *options.scale;
+    scale = {*options.scale, *options.scale};
   } else if (options.relative_scale) {
-    scale = *options.relative_scale * extent;
+    scale = {*options.relative_scale * extent, *options.relative_scale * extent};
   } else {
-    std::vector<Probe> probes = survey.share < 1.0 ? probe_source(source, survey, space, kProbes, kMostNeighbours, context)
-                                                   : probe_sample(survey, space, kProbes, kMostNeighbours, context);
-    if (!space.is_2d())
-      if (std::vector<Probe> flat = flat_ones(probes, space);
-          static_cast<double>(flat.size()) > kFewestFlat * static_cast<double>(probes.size()) && kPlants * scale_by(flat, space) < scale_by(probes, space))
-        probes = std::move(flat);
-    const double noise = noise_of(probes, space);
-    scale = std::clamp(scale_by(probes, space), 1e-4 * extent, 0.1 * extent);
-    const double step = step_of_levels(survey, space, probes, scale);
-    if (step == 0.0 && !space.is_2d() && kNoise * noise < scale) tolerance = std::max(kLeastTolerance * scale, kNoise * wide_noise(survey, space, probes));
-    if (kStepsSpanned * step > scale) {
-      scale = kStepsSpanned * step;
+    scale = estimate_scale(source, survey, space, context);
+    if (scale.step > 0.0)
       context.warn(fmt::format("the points lie on levels that are about {:.2g} m apart, as coarse depth leaves them: the scale is {:.1f} times that, "
-                               "and what is smaller is lost", step, kStepsSpanned));
-    }
+                               "and what is smaller is lost", scale.step, kStepsSpanned));
   }
-  if (!(scale > 0)) throw InputError("", "scale", fmt::format("{} m", scale), "more than 0");
-  if (!(scale <= extent))
-    throw InputError("", "scale", fmt::format("{} m", scale),
+  if (!(scale.scale > 0)) throw InputError("", "scale", fmt::format("{} m", scale.scale), "more than 0");
+  if (!(scale.scale <= extent))
+    throw InputError("", "scale", fmt::format("{} m", scale.scale),
                      fmt::format("less than the scene's extent, {:.6g} m", extent));
-  return {scale, std::min(tolerance, scale)};
+  return scale;
 }
 
 bool normals_usable(const Survey& survey, const Space& space, const Context& context) {
   if (!survey.has_normals() || 2 * survey.without_normal > survey.finite) return false;
   const std::vector<Probe> probes = probe_few(survey, space, kNormalProbes, context);
-  return median(probes, space, [&](const Probe& p) {
+  return weighted_median(probes, space, [&](const Probe& p) {
            const Vec3 n = survey.sample_normals[p.index].cast<double>();
            return n.norm() > 0.5 ? line_angle(n, p.fit.normal) : kPi / 2;
          }) < radians(30.0);

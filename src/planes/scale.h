@@ -32,13 +32,16 @@ Space space_of(const Survey& survey, bool declared_2d);
 
 /// ρ, and how far points may lie from their plane: ρ as well, unless it was estimated from points that are sparse but precise.
 struct Scale {
-  double scale, tolerance;  ///< m
+  double scale = 0, tolerance = 0;  ///< m
+  double step = 0;                  ///< m, of the levels that coarse depth has left the points on, if they ask for the scale
 };
 
-/// ρ from the options, or, if they give none, the larger of 1.25 times the distance to the sixth neighbour and
-/// four times the noise of small neighbourhoods, each the median over probes of the surface; where coarse depth has left the
-/// points on levels, at least 2.5 steps of these, with a warning. Reads the source again if the survey's sample holds only a part of it.
-/// Throws InputError if the scale exceeds the scene.
+/// ρ as the larger of 1.25 times the distance to the sixth neighbour and four times the noise of small neighbourhoods, each the median over
+/// probes of the surface; where coarse depth has left the points on levels, at least 2.5 steps of these. Reads the source again if the survey's
+/// sample holds only a part of it.
+Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context);
+
+/// ρ from the options, or estimated if they give none, with a warning of levels. Throws InputError if the scale exceeds the scene.
 Scale choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
                    Context& context);
 

@@ -59,5 +59,34 @@ TEST(Coplanar, OneLevelIsOnePlane) {
   EXPECT_EQ(height(r, first), height(r, third));
 }
 
+/// Floors of 3 by 6 m side by side at even steps, in a room.
+PointCloud terraces(int count, double step) {
+  PointCloud cloud;
+  Random random(12);
+  const double length = 3.0 * count;
+  for (int i = 0; i < count; ++i) test::add_rectangle(cloud, {3.0 * i, 0, step * i}, {3, 0, 0}, {0, 6, 0}, 0.05, kNoise, random);
+  for (const double y : {0.0, 6.0}) test::add_rectangle(cloud, {0, y, 0}, {length, 0, 0}, {0, 0, 3}, 0.05, kNoise, random);
+  for (const double x : {0.0, length}) test::add_rectangle(cloud, {x, 0, 0}, {0, 6, 0}, {0, 0, 3}, 0.05, kNoise, random);
+  return cloud;
+}
+
+// The steps are smaller than the scale, so one tilted plane would be near all points.
+TEST(Coplanar, FloorsAtSmallStepsAreNeitherTiltedNorOne) {
+  for (const double step : {0.03, 0.05})
+    for (const int count : {2, 3, 4}) {
+      const PointCloud cloud = terraces(count, step);
+      const test::Run r = test::run(cloud, Options());
+      EXPECT_GT(r.result.scale, 0.07);
+      std::vector<double> heights;
+      for (const ArrangedPlane& p : r.result.planes) {
+        EXPECT_LT(std::min(line_angle(p.plane.normal, Vec3::UnitZ()), std::abs(0.5 * kPi - line_angle(p.plane.normal, Vec3::UnitZ()))), radians(0.02));
+        if (line_angle(p.plane.normal, Vec3::UnitZ()) < 0.1) heights.push_back(p.plane.normal.z() * p.plane.offset);
+      }
+      std::sort(heights.begin(), heights.end());
+      ASSERT_EQ(heights.size(), static_cast<std::size_t>(count)) << step;
+      for (int i = 0; i < count; ++i) EXPECT_NEAR(heights[static_cast<std::size_t>(i)], step * i, 0.002) << step;
+    }
+}
+
 }  // namespace
 }  // namespace unseen::planes

@@ -45,6 +45,20 @@ TEST(Cuts, WhatIsBentSeveralTimesIsCutAtABend) {
   EXPECT_LE(std::min({std::abs(at - 20), std::abs(at - 60), std::abs(at - 100)}), 6) << at;
 }
 
+/// Where the two sides meet, dm.
+int place_of_cut(const std::pair<std::vector<int>, std::vector<int>>& sides) {
+  const auto& [a, b] = sides;
+  return a.empty() ? 0 : std::max(a.front(), b.front());
+}
+
+// Faces at steps are parallel: no hinge tells them apart, and one plane over two equal steps is tilted, which a single cut does not mend.
+TEST(Cuts, StepsAreCutWhereTheyAre) {
+  EXPECT_NEAR(place_of_cut(cut_of_strip([](double x) { return x < 6.0 ? 0.0 : 0.05; })), 60, 5);
+  const int at = place_of_cut(cut_of_strip([](double x) { return 0.05 * std::floor(x / 4.0); }));
+  EXPECT_LE(std::min(std::abs(at - 40), std::abs(at - 80)), 5) << at;
+  EXPECT_EQ(place_of_cut(cut_of_strip([](double x) { return x < 6.0 ? 0.0 : 0.01; })), 0) << "1 cm, at a noise of 5 mm";
+}
+
 TEST(Cuts, NoiseAndGentleWavesAreNotCut) {
   EXPECT_TRUE(cut_of_strip([](double) { return 0.0; }).first.empty());
   EXPECT_TRUE(cut_of_strip([](double x) { return zigzag(x, 0.008); }).first.empty()) << "bends of 0.9°";

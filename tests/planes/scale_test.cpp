@@ -217,5 +217,16 @@ TEST(ChooseScale, StepsOfAModelAreReal) {
   EXPECT_LT(scale_of(cloud), 0.05);
 }
 
+// A given scale that is below the spacing of half of the scene.
+TEST(ChooseScale, AGivenOneThatIsTooSmallForManyPointsIsSaid) {
+  PointCloud cloud = test::box_cloud(Vec3::Zero(), {2, 2, 2}, 0.02, 0.002, 1);
+  for (const Vec3& p : test::box_cloud({4, 0, 0}, {8, 8, 8}, 0.1, 0.002, 2).positions) cloud.positions.push_back(p);
+  const auto warnings = [&](double scale) { return test::run(cloud, test::with_scale(scale)).result.summary.warnings; };
+  ASSERT_EQ(warnings(0.02).size(), 1u);
+  EXPECT_NE(warnings(0.02).front().find("of the points lie on no plane at a scale of 0.02 m: their spacing and noise ask for 0.1"), std::string::npos)
+      << warnings(0.02).front();
+  EXPECT_TRUE(warnings(0.2).empty());
+}
+
 }  // namespace
 }  // namespace unseen::planes
