@@ -36,17 +36,6 @@ double extent(const Arc& arc) {
   return (high - low).norm();
 }
 
-/// Mean looks of an arc.
-Candidate looks_of(const Arc& arc) {
-  Candidate mean = arc.points[arc.points.size() / 2];
-  const auto count = static_cast<double>(arc.points.size());
-  mean.color = Vec3::Zero();
-  mean.round = 0.0;
-  for (const Candidate& c : arc.points) mean.color += c.color / count, mean.round += c.round / count;
-  mean.diameter = typical_diameter(arc.points);
-  return mean;
-}
-
 /// The arcs of the thing that flies most; the less a ball looks like a disc, as its shadow does, the less they are worth.
 std::vector<Arc> arcs_of_body(const std::vector<Arc>& arcs, double noise) {
   std::vector<Arc> moving;
@@ -157,18 +146,29 @@ void correct_times(std::vector<Candidate>& track, double noise, const Shot& shot
   for (Candidate& c : track) c.u = gaps.corrected(c.frame, c.u);
 }
 
-/// Flights of a track that are parabolas of the picture, and where they meet.
-Tracks flights_in_picture(const Shot& shot, std::vector<Candidate> track, int body, double noise, double fps, Context& context) {
+/// Flights and where they meet, in a track whose times are right.
+struct Flown {
   Tracks tracks;
+  std::vector<Candidate> track;
+  std::vector<Stretch> flights;  ///< a span
+
+  std::vector<Candidate> points(std::size_t first, std::size_t last) const { return {track.begin() + flights[first].begin, track.begin() + flights[last].end}; }
+};
+
+/// Flights of a track that are parabolas of the picture, and where they meet.
+Flown flights_in_picture(const Shot& shot, const std::vector<Candidate>& seen, int body, double noise, double fps, Context& context) {
+  Flown flown;
+  flown.track = seen;
+  auto& [tracks, track, flights] = flown;
   correct_times(track, noise, shot, context);
   std::optional<ImageGravity> gravity;
   if (shot.gravity > 0.0) {
     gravity = shared_gravity(split_into_flights(track, noise, {}, context), track, noise);
-    if (!gravity) return tracks;
+    if (!gravity) return flown;
   } else {
     gravity = ImageGravity{Vec2::Zero(), 0.02 * noise};
   }
-  std::vector<Stretch> flights = split_into_flights(track, noise, gravity, context);
+  flights = split_into_flights(track, noise, gravity, context);
   std::vector<std::vector<Candidate>> points;
   std::vector<Curve> curves;
   for (Stretch& flight : flights) {
@@ -188,6 +188,31 @@ Tracks flights_in_picture(const Shot& shot, std::vector<Candidate> track, int bo
     tracks.meetings.push_back({joint.u / fps, {static_cast<int>(i)}, {static_cast<int>(i + 1)}});
   }
   tracks.collisions_seen = static_cast<int>(tracks.meetings.size());
+  return flown;
+}
+
+/// The same with what lies between two meetings parted anew where a ball turns back along the view ray, as no parabola of the picture shows.
+Tracks with_returns(const Shot& shot, const ShotCamera& camera, const Flown& flown, int body, double fps, double noise, Context& context) {
+  Tracks tracks;
+  std::size_t first = 0;  // flight of those between two meetings
+  for (std::size_t meeting = 0; meeting <= flown.tracks.meetings.size(); ++meeting) {
+    const bool ends = meeting == flown.tracks.meetings.size();
+    const std::size_t last = ends ? flown.flights.size() - 1 : static_cast<std::size_t>(flown.tracks.meetings[meeting].before[0]);
+    const auto offset = tracks.points.size();
+    const auto spans = static_cast<int>(tracks.spans.size());
+    if (const auto parted = search_return(shot, camera, flown.points(first, last), body, fps, noise, context)) {
+      tracks.points.insert(tracks.points.end(), parted->points.begin(), parted->points.end());
+      for (const FlightSpan& span : parted->spans) tracks.spans.push_back({span.body, span.begin + offset, span.end + offset});
+      for (const Tracks::Meeting& m : parted->meetings) tracks.meetings.push_back({m.time, {m.before[0] + spans}, {m.after[0] + spans}});
+    } else {
+      for (std::size_t i = first; i <= last; ++i) add_span(tracks, body, flown.points(i, i), fps);
+    }
+    const auto next = static_cast<int>(tracks.spans.size());
+    if (!ends) tracks.meetings.push_back({flown.tracks.meetings[meeting].time, {next - 1}, {next}});
+    first = last + 1;
+  }
+  tracks.noise = flown.tracks.noise;
+  tracks.collisions_seen = static_cast<int>(tracks.meetings.size());
   return tracks;
 }
 
@@ -198,9 +223,10 @@ Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& 
   const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
   if (arcs.empty()) return {};
   const std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
-  Tracks tracks = flights_in_picture(shot, track, body, noise, fps, context);
-  if (!tracks.meetings.empty() || shot.video.empty()) return tracks;
-  return search_return(shot, camera, track, body, fps, noise, context).value_or(tracks);
+  const Flown flown = flights_in_picture(shot, track, body, noise, fps, context);
+  if (!flown.tracks.meetings.empty()) return with_returns(shot, camera, flown, body, fps, noise, context);
+  if (shot.video.empty()) return flown.tracks;
+  return search_return(shot, camera, track, body, fps, noise, context).value_or(flown.tracks);
 }
 
 }  // namespace unseen::collision

@@ -58,6 +58,7 @@ std::string nothing_found(const Shot& shot, const Tracks& tracks) {
   }
   if (shot.gravity == 0.0 && !shot.metres_per_pixel && std::none_of(tracks.points.begin(), tracks.points.end(), [](const TrackPoint& p) { return p.diameter > 0.0; }))
     return "no collision found: without gravity nothing tells the scale: give sightings a \"radius\", or the shot \"metres_per_pixel\"";
+  if (!tracks.meetings.empty() && shot.bodies[1].shape == Shape::fixed) return fmt::format("no bounce off {} was found that its flights explain", shot.bodies[1].name);
   return "no collision found: the flights do not meet";
 }
 

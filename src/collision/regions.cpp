@@ -15,6 +15,7 @@
 #include "collision/stabilise.h"
 #include "io/clip.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -66,6 +67,13 @@ void set_view(const Shot& shot, cv::Size size, Survey& survey) {
 
 int tracked_scale(cv::Size size) { return std::max(1, (size.width + kTrackedWidth - 1) / kTrackedWidth); }
 
+/// Mean difference of two pictures, grey levels, but for the light: lamps flicker.
+double change_between(const cv::Mat& before, const cv::Mat& after) {
+  cv::Mat as_bright;
+  before.convertTo(as_bright, -1, cv::mean(after)[0] / std::max(1.0, cv::mean(before)[0]));
+  return cv::norm(after, as_bright, cv::NORM_L1) / static_cast<double>(after.total());
+}
+
 /// First pass: time stamps, changes, the camera's motion, and frames for the background.
 Survey survey_clip(const Shot& shot, io::Clip& clip, Context& context) {
   Survey survey;
@@ -83,7 +91,7 @@ Survey survey_clip(const Shot& shot, io::Clip& clip, Context& context) {
     cv::cvtColor(small, gray, cv::COLOR_BGR2GRAY);
     survey.stamps.push_back(clip.stamp());
     survey.brightness.push_back(cv::mean(gray)[0]);
-    survey.change.push_back(before.empty() ? 0.0 : cv::norm(gray, before, cv::NORM_L1) / static_cast<double>(gray.total()));
+    survey.change.push_back(before.empty() ? 0.0 : change_between(before, gray));
     const bool black = survey.brightness.back() < std::max(kNothing, kBlack * lit);
     if (!black && lit == 0.0) lit = survey.brightness.back();
     survey.stabiliser.add(gray, !black);
@@ -166,9 +174,7 @@ std::vector<cv::Mat> registered(const Survey& survey, const Footage& footage) {
 /// Second pass: the regions of each frame that shows something.
 void second_pass(const Shot& shot, const Survey& survey, const Background& background, Footage& footage, Context& context) {
   io::Clip clip(shot.video);
-  std::vector<double> sorted = survey.brightness;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  const double black = kBlack * sorted[sorted.size() / 2];
+  const double black = kBlack * median(survey.brightness);
   cv::Mat frame;
   std::vector<std::pair<int, cv::Mat>> batch;
   const auto work = [&] {

@@ -9,6 +9,7 @@
 
 #include "collision/drag.h"
 #include "collision/scale_doubt.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -20,12 +21,12 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
     for (const SolvedImpact& impact : impacts)
       if (const auto& ratio = impact.uncertain.scale[static_cast<std::size_t>(o)]) ratios.push_back(*ratio);
     if (ratios.empty()) continue;
-    std::sort(ratios.begin(), ratios.end());
-    const double ratio = ratios[ratios.size() / 2];
+    const double ratio = median(std::move(ratios));
     if (is_another_scale(impacts.front().solution.problem.solids[static_cast<std::size_t>(o)], ratio))
-      context.warn(fmt::format("{}: the distance by its size is {:.2f} times that by gravity: its size is given {:.0f} % too {}, or the frame rate {:.0f} % too {}",
+      context.warn(fmt::format("{}: the distance by its size is {:.3g} times that by gravity: its size is given {:.0f} % too {}, or the frame rate {:.0f} % too {}{}",
                                shot.bodies[o].name, ratio, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "large" : "small",
-                               100.0 * std::abs(std::sqrt(ratio) - 1.0), ratio > 1.0 ? "high" : "low"));
+                               100.0 * std::abs(std::sqrt(ratio) - 1.0), ratio > 1.0 ? "high" : "low",
+                               ratio > 1.0 && !shot.video.empty() ? ", or only a part of it tells from the background" : ""));
   }
 }
 
@@ -67,14 +68,15 @@ void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedI
   doubt_labels(shot, tracks, impacts.front(), result, context);
   compare_scales(shot, impacts, context);
   compare_down(shot, impacts.front(), context);
-  if (result.fixed.empty() && tracks.collisions_seen > 1) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
+  const bool several = result.fixed.empty() && tracks.collisions_seen > 1;
+  if (several) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
   const bool refused = std::any_of(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return !i.check.reasons.empty(); });
   for (std::size_t i = 0; i < impacts.size(); ++i)
     for (const std::string& reason : impacts[i].check.reasons)
       context.warn(result.fits ? fmt::format("the impact at frame {:.1f} is left out: {}", result.impacts[i].frame, reason) : "the model does not fit: " + reason);
   if (!result.fits && !refused)
     context.warn("no confident restitution: it ends on a bound, 0 or 1");
-  if (result.fits && !result.restitution)
+  if (result.fits && !result.restitution && !several)
     context.warn("no confident restitution: the flights tell too little of it");
   look_for_drag(shot, impacts, result, context);
 }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "collision/drag.h"
+#include "collision/one_surface.h"
 #include "collision/restitution.h"
 #include "collision/shot_problem.h"
 #include "collision/split.h"
@@ -56,6 +57,7 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     impact.meeting = meeting;
     const auto solve = [&](const Tracks& seen) { return best_fit(problem_of(shot, options, camera, solids, seen, meeting), meeting.time, 1, context); };
     impact.solution = solve(tracks);
+    if (is_off_something_else(shot, options, tracks.noise, fps, impact, context)) continue;
     settle_split(solve, impact.meeting, 1.0 / fps, tracks, impact.solution);
     if (!impact.solution.fit.usable) continue;
     add_floor_or_wall(impact.solution.problem, impact.solution.fit.state);
@@ -63,6 +65,7 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     impacts.push_back(std::move(impact));
     context.progress(static_cast<double>(impacts.size()) / static_cast<double>(tracks.meetings.size()));
   }
+  keep_one_surface(shot, options, tracks.noise, fps, impacts, context);
   if (options.drag == "estimate" && !impacts.empty()) {
     impacts = with_drag(impacts, best_drag(impacts));
     std::erase_if(impacts, [](const SolvedImpact& impact) { return !impact.solution.fit.usable; });

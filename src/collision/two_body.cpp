@@ -9,6 +9,7 @@
 #include "collision/arcs.h"
 #include "collision/meetings.h"
 #include "collision/pair_links.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -50,6 +51,11 @@ double continues(const Arc& arc, const Arc& other, double noise) {
   return away / (noise * std::sqrt(2.0 * (1.0 + arc.curve.variance_at(end.u))));
 }
 
+/// Whether what are to be two bodies before the impact, or after it, are two pieces of one flight.
+bool is_one_body(const std::vector<Arc>& arcs, const Collision& c, double noise) {
+  return continues(arcs[c.a.before], arcs[c.b.before], noise) < kGate || continues(arcs[c.a.after], arcs[c.b.after], noise) < kGate;
+}
+
 /// The four arcs, each with others that continue it on its side of the impact: silhouettes that merged part a flight. Marks all that
 /// are `used`.
 std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collision, double noise, std::vector<char>& used) {
@@ -78,10 +84,7 @@ std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points) {
     const double usual = typical_diameter({points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)});
     off.push_back(usual > 0.0 && points[i].diameter > 0.0 ? std::abs(std::log(points[i].diameter / usual)) : 0.0);
   }
-  std::vector<double> sorted = off;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double odd = std::max(kOddLogSize, kOddSigmas * 1.4826 * *middle);
+  const double odd = std::max(kOddLogSize, kOddSigmas * 1.4826 * median(off));
   std::vector<Candidate> usual;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (off[i] <= odd) usual.push_back(points[i]);
@@ -115,6 +118,19 @@ Curve curve_of(const std::vector<Candidate>& points) {
   return sums.fit();
 }
 
+/// Marks arcs that run along a flight: pieces of the body's silhouette, where the background or a shadow parts it.
+void mark_pieces(const std::vector<Arc>& arcs, const std::vector<Candidate>& flight, std::vector<char>& used) {
+  const Curve curve = curve_of(flight);
+  const double near = kAstray * typical_diameter(flight);
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const std::vector<Candidate>& points = arcs[i].points;
+    const auto along = std::count_if(points.begin(), points.end(), [&](const Candidate& c) {
+      return c.u >= flight.front().u && c.u <= flight.back().u && (c.pixel - curve.at(c.u)).norm() < near;
+    });
+    if (2 * along > static_cast<std::ptrdiff_t>(points.size())) used[i] = 1;
+  }
+}
+
 double noise_of(const std::vector<std::vector<Candidate>>& flights) {
   std::vector<Curve> curves;
   for (const auto& flight : flights) curves.push_back(curve_of(flight));
@@ -144,6 +160,7 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
     std::swap(flights[0], flights[1]);
     std::swap(flights[2], flights[3]);
   }
+  for (const auto& flight : flights) mark_pieces(arcs, flight, used);
   Tracks tracks;
   for (std::size_t i = 0; i < 4; ++i) add_span(tracks, static_cast<int>(i % 2), flights[i], fps);
   tracks.noise = noise_of(flights);
@@ -161,7 +178,8 @@ Tracks find_pair(const Shot& shot, const ShotCamera& camera, const Candidates& c
   const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
   std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
-  const std::vector<Collision> found = find_collisions(shot, camera, arcs, noise, fps);
+  std::vector<Collision> found = find_collisions(shot, camera, arcs, noise, fps);
+  std::erase_if(found, [&](const Collision& c) { return is_one_body(arcs, c, noise); });
   if (found.empty()) return without_collision(shot, arcs, fps);
   return with_collision(shot, candidates, arcs, found, noise, fps);
 }

@@ -115,6 +115,25 @@ TEST(Regions, FlickerAndBlackFramesAreNoMovers) {
   EXPECT_LT(worst_error(footage, 1, 10, thrown), 0.5);
 }
 
+// Lamps at 100 Hz, filmed at 120 frames a second: the light comes back every sixth frame, and changes by nothing twice in that time.
+TEST(Regions, FlickeringLightRepeatsNoFrame) {
+  const Scratch scratch("lamp");
+  const std::string path = scratch.file("lamp.avi");
+  Random random(3);
+  const cv::Mat background = wall();
+  write_video(path, 40, [&](int k) {
+    cv::Mat frame = background.clone();
+    draw_disc(frame, thrown(k), 12.0, kRed);
+    frame *= 0.9 + 0.06 * std::sin(2.0 * kPi * (k + 0.5) / 6.0);
+    add_noise(frame, 0.5, random);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  EXPECT_EQ(std::count(footage.doubled.begin(), footage.doubled.end(), 1), 0);
+  EXPECT_FALSE(warned(context, "repeat"));
+}
+
 /// A film by an unsteady hand whose first frames are black.
 void expect_steadied(int black) {
   const Scratch scratch("hand");

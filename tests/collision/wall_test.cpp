@@ -63,6 +63,53 @@ TEST(Wall, IsNotSeenWhereABallFliesOn) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) EXPECT_TRUE(solve(thrown_at_wall(pitch, seed, -1.0)).impacts.empty()) << pitch << " " << seed;
 }
 
+constexpr double kFloor = 0.6, kFloorC = 0.5;  // m below the camera's centre, of the ball's; what it lands on is softer
+
+/// The same in a level camera, until the ball has landed on the floor and risen again.
+Vec3 place_and_landing(double time) {
+  const Vec3 at_wall = place(kImpact, 0.0, kC);
+  const double fall = 0.5 * 9.81, v = -0.5, down = (-v + std::sqrt(v * v + 4.0 * fall * (kFloor - at_wall.y()))) / (2.0 * fall), t = time - kImpact - down;
+  Vec3 p = place(time, 0.0, kC);
+  if (t > 0.0) p.y() = kFloor - kFloorC * (v + 9.81 * down) * t + fall * t * t;
+  return p;
+}
+
+Shot wall_and_floor(std::uint64_t seed) {
+  Shot shot = ball_and("wall", kRadius, kFps, 1000);
+  Random random(seed);
+  for (int frame = 0; frame < 120; ++frame) {
+    const Vec3 p = place_and_landing(frame / kFps);
+    const Vec2 pixel = shot.camera.camera.project(p) + 0.3 * Vec2(random.normal(), random.normal());
+    const double radius = shot.camera.camera.fx * kRadius / p.z() * std::exp(0.01 * random.normal());
+    if (p.z() > 0.5 && pixel.x() > 0 && pixel.x() < 1280 && pixel.y() > 0 && pixel.y() < 720) shot.observations.push_back({frame, pixel, radius, 0});
+  }
+  return shot;
+}
+
+/// The kink at the floor is plain in the picture, that at the wall is not.
+TEST(Wall, OfAFilmIsFoundBeforeTheBallLands) {
+  Shot shot = wall_and_floor(1);
+  shot.video = "film";
+  Context context;
+  const Tracks tracks = find_chain(shot, shot.camera, candidates_of(shot.observations, shot.camera), 0, kFps, 0.5, context);
+  ASSERT_EQ(tracks.meetings.size(), 2u);
+  EXPECT_NEAR(tracks.meetings[0].time, kImpact, 2.0 / kFps);
+  EXPECT_EQ(tracks.meetings[0].after, tracks.meetings[1].before);
+}
+
+TEST(Wall, IsNotTheFloor) {
+  Shot shot = wall_and_floor(2);
+  shot.bodies[1].normal = -Vec3::UnitZ();
+  Context context;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  ASSERT_EQ(r.impacts.size(), 1u);
+  EXPECT_NEAR(r.impacts[0].time, kImpact, 1.0 / kFps);
+  ASSERT_TRUE(r.restitution);
+  EXPECT_NEAR(r.restitution->value, kC, 0.05);
+  const auto& warnings = r.summary.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("is left out: it pushed 9") != std::string::npos; }));
+}
+
 /// Regions of a film: sizes say where a ball turns.
 TEST(Wall, OfAFilmIsFoundByTheSizes) {
   Shot shot = thrown_at_wall(0.0, 1);
