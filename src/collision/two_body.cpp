@@ -118,14 +118,14 @@ Curve curve_of(const std::vector<Candidate>& points) {
   return sums.fit();
 }
 
-/// Marks arcs that run along a flight: pieces of the body's silhouette, where the background or a shadow parts it.
-void mark_pieces(const std::vector<Arc>& arcs, const std::vector<Candidate>& flight, std::vector<char>& used) {
+/// Marks arcs that run along a flight, or where it leads: pieces of the body's silhouette, where the background or a shadow parts it.
+void mark_pieces(const std::vector<Arc>& arcs, const std::vector<Candidate>& flight, bool before, std::vector<char>& used) {
   const Curve curve = curve_of(flight);
   const double near = kAstray * typical_diameter(flight);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     const std::vector<Candidate>& points = arcs[i].points;
     const auto along = std::count_if(points.begin(), points.end(), [&](const Candidate& c) {
-      return c.u >= flight.front().u && c.u <= flight.back().u && (c.pixel - curve.at(c.u)).norm() < near;
+      return (before ? c.u <= flight.back().u : c.u >= flight.front().u) && (c.pixel - curve.at(c.u)).norm() < near;
     });
     if (2 * along > static_cast<std::ptrdiff_t>(points.size())) used[i] = 1;
   }
@@ -160,7 +160,7 @@ Tracks with_collision(const Shot& shot, const Candidates& candidates, const std:
     std::swap(flights[0], flights[1]);
     std::swap(flights[2], flights[3]);
   }
-  for (const auto& flight : flights) mark_pieces(arcs, flight, used);
+  for (std::size_t i = 0; i < 4; ++i) mark_pieces(arcs, flights[i], i < 2, used);
   Tracks tracks;
   for (std::size_t i = 0; i < 4; ++i) add_span(tracks, static_cast<int>(i % 2), flights[i], fps);
   tracks.noise = noise_of(flights);
