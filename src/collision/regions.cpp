@@ -67,11 +67,11 @@ void set_view(const Shot& shot, cv::Size size, Survey& survey) {
 
 int tracked_scale(cv::Size size) { return std::max(1, (size.width + kTrackedWidth - 1) / kTrackedWidth); }
 
-/// Mean difference of two pictures, grey levels, but for the light: lamps flicker.
+/// Mean difference of two pictures, grey levels, but for the light, if that explains a part of it: lamps flicker.
 double change_between(const cv::Mat& before, const cv::Mat& after) {
   cv::Mat as_bright;
-  before.convertTo(as_bright, -1, cv::mean(after)[0] / std::max(1.0, cv::mean(before)[0]));
-  return cv::norm(after, as_bright, cv::NORM_L1) / static_cast<double>(after.total());
+  cv::addWeighted(after, 1.0, before, -cv::mean(after)[0] / std::max(1.0, cv::mean(before)[0]), 0.0, as_bright, CV_32F);
+  return std::min(cv::norm(after, before, cv::NORM_L1), cv::norm(as_bright, cv::NORM_L1)) / static_cast<double>(after.total());
 }
 
 /// First pass: time stamps, changes, the camera's motion, and frames for the background.

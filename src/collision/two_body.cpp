@@ -51,11 +51,6 @@ double continues(const Arc& arc, const Arc& other, double noise) {
   return away / (noise * std::sqrt(2.0 * (1.0 + arc.curve.variance_at(end.u))));
 }
 
-/// Whether what are to be two bodies before the impact, or after it, are two pieces of one flight.
-bool is_one_body(const std::vector<Arc>& arcs, const Collision& c, double noise) {
-  return continues(arcs[c.a.before], arcs[c.b.before], noise) < kGate || continues(arcs[c.a.after], arcs[c.b.after], noise) < kGate;
-}
-
 /// The four arcs, each with others that continue it on its side of the impact: silhouettes that merged part a flight. Marks all that
 /// are `used`.
 std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collision, double noise, std::vector<char>& used) {
@@ -178,8 +173,7 @@ Tracks find_pair(const Shot& shot, const ShotCamera& camera, const Candidates& c
   const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
   std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
-  std::vector<Collision> found = find_collisions(shot, camera, arcs, noise, fps);
-  std::erase_if(found, [&](const Collision& c) { return is_one_body(arcs, c, noise); });
+  const std::vector<Collision> found = find_collisions(shot, camera, arcs, noise, fps);
   if (found.empty()) return without_collision(shot, arcs, fps);
   return with_collision(shot, candidates, arcs, found, noise, fps);
 }

@@ -302,6 +302,28 @@ TEST(Pair, SeveralCollisionsAreCounted) {
   EXPECT_EQ(tracks.meetings.size(), 1u);
 }
 
+// The background bites into the outline of one ball after the collision: its centre jumps and wanders, and its flight breaks into pieces.
+TEST(Pair, PiecesOfAFlightAreNoSecondCollision) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    const Meeting motion;
+    std::vector<Sighting> sightings;
+    for (int k = 20; k < 110; ++k)
+      for (int body = 0; body < 2; ++body)
+        if (body == 0 || k < 75) sightings.push_back(seen(k, motion.at(body, k / kFps), body == 0 ? 0.08 : 0.05, -1, 0.4, random));
+    for (int begin = 78; begin < 110;) {
+      const int end = begin + 5 + static_cast<int>(10.0 * random.uniform());
+      const Vec2 off = 8.0 * Vec2(random.uniform() - 0.5, random.uniform() - 0.5), drift = 1.5 * Vec2(random.uniform() - 0.5, random.uniform() - 0.5);
+      for (Sighting& s : sightings)
+        if (s.frame >= begin && s.frame < end) s.pixel += off + (s.frame - begin) * drift;
+      begin = end;
+    }
+    std::erase_if(sightings, [](const Sighting& s) { return s.frame > 74 && s.frame < 78; });
+    Context context;
+    EXPECT_EQ(find_tracks(pair_shot(0.08, 0.05), camera(), sightings, kFps, context).collisions_seen, 1) << seed;
+  }
+}
+
 TEST(Pair, DistortionIsTakenOut) {
   Random random(13);
   const Meeting motion;
