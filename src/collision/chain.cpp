@@ -222,7 +222,8 @@ Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& 
   const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
   const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
   if (arcs.empty()) return {};
-  const std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
+  std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
+  if (!shot.video.empty() && shot.bodies[static_cast<std::size_t>(body)].shape == Shape::sphere) track = without_odd_sizes(track);
   const Flown flown = flights_in_picture(shot, track, body, noise, fps, context);
   if (!flown.tracks.meetings.empty()) return with_returns(shot, camera, flown, body, fps, noise, context);
   if (shot.video.empty()) return flown.tracks;

@@ -9,7 +9,6 @@
 #include "collision/arcs.h"
 #include "collision/meetings.h"
 #include "collision/pair_links.h"
-#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -21,8 +20,6 @@ constexpr double kGate = 3.5;          // σ, of points that are assigned to a f
 constexpr double kOverlap = 3.0;       // frame times that two pieces of one flight may share
 constexpr double kAstray = 0.5;        // diameters that the second may begin off where the first leads
 constexpr double kOneFlight = 1.2;     // times the noise, about one parabola through both
-constexpr std::size_t kAbout = 8;      // points to either side that tell the usual size
-constexpr double kOddLogSize = 0.03, kOddSigmas = 6.0;  // of the logarithm of the size, or σ of its spread
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
 /// The arc with those points of another that are outside its time.
@@ -69,21 +66,6 @@ std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collis
     flights[flight] = with(flights[flight], arcs[piece]);
     used[piece] = 1;
   }
-}
-
-/// Leaves out points whose size is not that of the frames about them: a body that something covers in part, or that merges with another.
-std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points) {
-  std::vector<double> off;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t begin = i < kAbout ? 0 : i - kAbout, end = std::min(points.size(), i + kAbout + 1);
-    const double usual = typical_diameter({points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)});
-    off.push_back(usual > 0.0 && points[i].diameter > 0.0 ? std::abs(std::log(points[i].diameter / usual)) : 0.0);
-  }
-  const double odd = std::max(kOddLogSize, kOddSigmas * 1.4826 * median(off));
-  std::vector<Candidate> usual;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (off[i] <= odd) usual.push_back(points[i]);
-  return usual.size() >= 3 ? usual : points;
 }
 
 /// The points of a flight again, from all candidates on its side of the impact, nearest first.
