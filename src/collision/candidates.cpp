@@ -140,16 +140,16 @@ double typical_diameter(const std::vector<Candidate>& candidates) {
   return median(std::move(sizes));
 }
 
-std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points) {
+std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points, double least) {
   constexpr std::size_t kAbout = 8;  // points to either side that tell the usual size
-  constexpr double kOddLogSize = 0.03, kOddSigmas = 6.0;  // of the logarithm of the size, or σ of its spread
+  constexpr double kOddSigmas = 6.0;  // of the spread about that
   std::vector<double> off;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t begin = i < kAbout ? 0 : i - kAbout, end = std::min(points.size(), i + kAbout + 1);
     const double usual = typical_diameter({points.begin() + static_cast<std::ptrdiff_t>(begin), points.begin() + static_cast<std::ptrdiff_t>(end)});
     off.push_back(usual > 0.0 && points[i].diameter > 0.0 ? std::abs(std::log(points[i].diameter / usual)) : 0.0);
   }
-  const double odd = std::max(kOddLogSize, kOddSigmas * 1.4826 * median(off));
+  const double odd = std::max(least, kOddSigmas * 1.4826 * median(off));
   std::vector<Candidate> usual;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (off[i] <= odd) usual.push_back(points[i]);

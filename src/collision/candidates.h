@@ -42,7 +42,8 @@ double unlikeness(const Candidate& a, const Candidate& b);
 /// Median diameter of those that have one; 0 = none has.
 double typical_diameter(const std::vector<Candidate>& candidates);
 
-/// Leaves out points whose size is not that of the frames about them: a body that something covers in part, or that merges with another.
-std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points);
+/// Leaves out points whose size is not that of the frames about them: a body that something covers in part, or that merges with another; off by a share of
+/// `least` or more.
+std::vector<Candidate> without_odd_sizes(const std::vector<Candidate>& points, double least);
 
 }  // namespace unseen::collision

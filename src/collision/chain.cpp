@@ -26,6 +26,7 @@ constexpr double kFarCost = 9.0;       // σ², of a step that long
 constexpr int kBackFrames = 12;        // that the body may be out of sight in a track, at least
 constexpr double kGapFrames = 4.5;     // frame times between two flights that meet, at most, and
 constexpr double kGapSeconds = 0.4;
+constexpr double kBitten = 0.1;       // share: a part of a ball is not seen
 
 double extent(const Arc& arc) {
   Vec2 low = arc.points.front().pixel, high = low;
@@ -223,7 +224,7 @@ Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& 
   const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
   if (arcs.empty()) return {};
   std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
-  if (!shot.video.empty() && shot.bodies[static_cast<std::size_t>(body)].shape == Shape::sphere) track = without_odd_sizes(track);
+  if (!shot.video.empty() && shot.bodies[static_cast<std::size_t>(body)].shape == Shape::sphere) track = without_odd_sizes(track, kBitten);
   const Flown flown = flights_in_picture(shot, track, body, noise, fps, context);
   if (!flown.tracks.meetings.empty()) return with_returns(shot, camera, flown, body, fps, noise, context);
   if (shot.video.empty()) return flown.tracks;

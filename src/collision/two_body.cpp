@@ -20,6 +20,7 @@ constexpr double kGate = 3.5;          // σ, of points that are assigned to a f
 constexpr double kOverlap = 3.0;       // frame times that two pieces of one flight may share
 constexpr double kAstray = 0.5;        // diameters that the second may begin off where the first leads
 constexpr double kOneFlight = 1.2;     // times the noise, about one parabola through both
+constexpr double kOddSizeOfFlight = 0.03;      // share
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
 /// The arc with those points of another that are outside its time.
@@ -86,7 +87,7 @@ std::vector<Candidate> reassign(const Candidates& candidates, const Arc& arc, do
     }
     if (best) points.push_back(*best);
   }
-  return without_odd_sizes(points.size() >= 3 ? points : arc.points);
+  return without_odd_sizes(points.size() >= 3 ? points : arc.points, kOddSizeOfFlight);
 }
 
 Curve curve_of(const std::vector<Candidate>& points) {
