@@ -13,7 +13,8 @@ constexpr double kSplitGain = 0.6;       // a split must leave less than this sh
 constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature, unless
 constexpr double kShallow = 0.02, kShallowGain = 0.3;  // they are above this, rad, and leave less than this share,
 constexpr std::size_t kShallowCells = 100;  // of so many voxels or more,
-constexpr double kStep = 4.0;            // or parallel sides are so many times their noise apart where they meet
+constexpr double kStep = 4.0;            // or parallel sides are so many times their noise apart where they meet,
+constexpr double kRounded = 3.0, kLeastStep = 0.01;  // and of the steps of coordinates, and of the tolerance
 constexpr double kBent = 0.25;            // of the tolerance: what is bent several times is off one plane by more, in the mean: noise may be correlated
 constexpr int kMostPieces = 5;           // straight ones, of what is bent several times
 constexpr int kSlices = 12;
@@ -58,13 +59,18 @@ double step_between(const Piece& a, const Piece& b) {
   return std::abs(share * a.fit.normal.dot(apart) + (1.0 - share) * std::copysign(1.0, a.fit.normal.dot(b.fit.normal)) * b.fit.normal.dot(apart));
 }
 
+/// How high a step must be to be none of noise (its variance, m²), of rounding, or of nothing.
+double least_step(const VoxelGrid& grid, double variance) {
+  return std::max({kStep * std::sqrt(variance), kRounded * grid.rounding, kLeastStep * grid.tolerance});
+}
+
 struct Cut {
   int at = 0;  ///< slices below it are one side; 0 = none
   double error = std::numeric_limits<double>::infinity();
 };
 
 /// The single cut that leaves least, if that is less than `most`. Flat hinges and steps must leave less than `shallow`.
-Cut best_single(const std::vector<Moments>& slice, const Space& space, double most, double shallow) {
+Cut best_single(const std::vector<Moments>& slice, const VoxelGrid& grid, const Space& space, double most, double shallow) {
   const double least = space.is_2d() ? 5 : 10;  // points
   std::vector<Moments> above(kSlices + 1);
   for (int c = kSlices - 1; c >= 0; --c) above[c] = above[c + 1] + slice[c];
@@ -78,7 +84,7 @@ Cut best_single(const std::vector<Moments>& slice, const Space& space, double mo
     if (error >= best.error) continue;
     const double hinge = line_angle(a.fit.normal, b.fit.normal);
     if (hinge < kSplitAngle && error > shallow) continue;
-    if (hinge < kShallow && step_between(a, b) < kStep * std::sqrt(error / (below.count + above[c].count))) continue;
+    if (hinge < kShallow && step_between(a, b) < least_step(grid, error / (below.count + above[c].count))) continue;
     best = {c, error};
   }
   return best;
@@ -110,7 +116,7 @@ Pieces best_pieces(const std::vector<std::vector<double>>& error) {
 
 /// Of the fewest straight pieces that explain most of what one plane does not, but planes of single slices do: the cut at the sharpest bend, or at the
 /// highest step if nothing is bent; with the error of most pieces.
-Cut sharpest_bend(const std::vector<Moments>& slice, const Space& space, double tolerance) {
+Cut sharpest_bend(const std::vector<Moments>& slice, const VoxelGrid& grid, const Space& space) {
   constexpr double kFewest = 10;  // points in a slice
   std::vector<std::vector<double>> error(kSlices, std::vector<double>(kSlices + 1, 0.0));
   double by_slices = 0, count = 0;
@@ -125,7 +131,7 @@ Cut sharpest_bend(const std::vector<Moments>& slice, const Space& space, double 
     count += slice[i].count;
   }
   const double bent = error[0][kSlices] - by_slices;
-  const double least_bent = std::pow(kBent * tolerance, 2) * count;
+  const double least_bent = std::pow(kBent * grid.tolerance, 2) * count;
   if (bent < std::min(least_bent, by_slices)) return {};
   const Pieces pieces = best_pieces(error);
   int k = 2;
@@ -141,7 +147,7 @@ Cut sharpest_bend(const std::vector<Moments>& slice, const Space& space, double 
   }
   Cut cut{0, pieces.error[kMostPieces]};
   double sharpest = bent < least_bent ? std::numeric_limits<double>::infinity() : kShallow;
-  double highest = kStep * std::sqrt(by_slices / count);
+  double highest = least_step(grid, by_slices / count);
   int bend_at = 0, step_at = 0;
   for (std::size_t p = 0; p + 1 < straight.size(); ++p) {
     const double bend = line_angle(straight[p].fit.normal, straight[p + 1].fit.normal);
@@ -170,11 +176,11 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
   Cut best{0, kSplitGain * error};
   const Slices* of_best = nullptr;
   for (const Slices& along : slices)
-    if (const Cut cut = best_single(along.sum, space, best.error, shallow); cut.at > 0) best = cut, of_best = &along;
+    if (const Cut cut = best_single(along.sum, grid, space, best.error, shallow); cut.at > 0) best = cut, of_best = &along;
   if (of_best == nullptr && large && !space.is_2d()) {
     best = {};
     for (const Slices& along : slices)
-      if (const Cut cut = sharpest_bend(along.sum, space, grid.tolerance); cut.at > 0 && cut.error < best.error) best = cut, of_best = &along;
+      if (const Cut cut = sharpest_bend(along.sum, grid, space); cut.at > 0 && cut.error < best.error) best = cut, of_best = &along;
   }
   std::pair<std::vector<int>, std::vector<int>> sides;
   if (of_best != nullptr)

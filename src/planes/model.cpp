@@ -10,8 +10,9 @@ namespace unseen::planes {
 namespace {
 
 /// Patches of one orientation that adjoin within the scale and are not clearly apart, as groups; each is named by its largest patch.
-std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& normals, const Cells& cells) {
-  constexpr double kClearly = 4.0;  // times the noise
+std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& normals, const VoxelGrid& grid, const Cells& cells) {
+  constexpr double kClearly = 4.0;  // times the noise,
+  constexpr double kRounded = 3.0, kLeast = 0.01;  // the steps of coordinates, and of the tolerance
   const std::size_t n = patches.patches.size();
   std::vector<int> group(n);
   std::iota(group.begin(), group.end(), 0);
@@ -34,7 +35,7 @@ std::vector<int> join_coplanar(const Patches& patches, const std::vector<Vec3>& 
   for (const Join& join : joins) {
     const int a = root(join.a), b = root(join.b);
     const double noise = std::max(patches.patches[join.a].fit.rms, patches.patches[join.b].fit.rms);
-    if (a == b || gap(a, b) >= std::min({tolerance(join.a), tolerance(join.b), kClearly * noise})) continue;
+    if (a == b || gap(a, b) >= std::min({tolerance(join.a), tolerance(join.b), std::max({kClearly * noise, kRounded * grid.rounding, kLeast * grid.tolerance})})) continue;
     group[std::max(a, b)] = std::min(a, b);
     sums[std::min(a, b)] += sums[std::max(a, b)];
   }
@@ -144,7 +145,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
   std::vector<Vec3> normals;
   for (std::size_t j = 0; j < patches.patches.size(); ++j)
     normals.push_back(model.frames[r.frame_of_patch[j]].direction(model.locals[r.local_of_patch[j]]));
-  const std::vector<int> group = join_coplanar(patches, normals, cells);
+  const std::vector<int> group = join_coplanar(patches, normals, grid, cells);
   std::vector<std::vector<int>> cells_of(patches.patches.size());
   for (std::size_t j = 0; j < patches.patches.size(); ++j) {
     const std::vector<int>& c = patches.patches[j].cells;

@@ -125,7 +125,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   Survey seen;
   Space space;
   bool use_normals = false;
-  double tolerance = 0;
+  double tolerance = 0, rounding = 0, levels = 0;
   {
     Stage stage(context, summary, "survey");
     seen = survey(source, context);
@@ -134,6 +134,8 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     const Scale scale = choose_scale(source, seen, space, options, context);
     result.scale = scale.scale;
     tolerance = scale.tolerance;
+    levels = scale.step;
+    rounding = rounding_of(seen);
     use_normals = normals_usable(seen, space, context);
     result.two_dimensional = space.is_2d();
     if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
@@ -152,6 +154,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       context.warn(fmt::format("{} of {} points lie far from all others and are left out", voxels.outside(), seen.finite));
     grid = VoxelGrid(voxels, context);
     grid.tolerance = tolerance;
+    grid.rounding = std::max(rounding, levels);
     check_not_collinear(grid, space, info.name);
     if (!use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());

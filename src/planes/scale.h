@@ -27,6 +27,10 @@ struct Survey {
 
 Survey survey(PointSource& source, Context& context);
 
+/// The steps (m) that the sample's coordinates come in, as text with few decimals or a LAS file has them: 10ᵏ, a half or a quarter of it; 0 if there are none
+/// of a 100 000th of the extent or more.
+double rounding_of(const Survey& survey);
+
 /// The space of a survey: 2D if all points share a coordinate and lie on lines.
 Space space_of(const Survey& survey, bool declared_2d);
 

@@ -260,4 +260,21 @@ Space space_of(const Survey& survey, bool declared_2d) {
   return space;
 }
 
+double rounding_of(const Survey& survey) {
+  constexpr std::size_t kLooked = 2000;
+  constexpr double kLeast = 1e-5, kExact = 1e-3;  // of the extent; of a step
+  const std::size_t every = survey.sample.size() / kLooked + 1;
+  const auto comes_in = [&](double step) {
+    for (std::size_t i = 0; i < survey.sample.size(); i += every) {
+      const Vec3 steps = (survey.sample[i] - survey.sample.front()) / step;
+      if ((steps - steps.array().round().matrix()).cwiseAbs().maxCoeff() > kExact) return false;
+    }
+    return true;
+  };
+  for (double power = std::pow(10.0, std::floor(std::log10(survey.extent()))); power > kLeast * survey.extent(); power /= 10.0)
+    for (const double part : {1.0, 0.5, 0.25})
+      if (comes_in(part * power)) return part * power;
+  return 0.0;
+}
+
 }  // namespace unseen::planes

@@ -249,6 +249,7 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   VoxelGrid grid;
   grid.edge = 2.0 * edge;
   grid.tolerance = tolerance;
+  grid.rounding = rounding;
   grid.within = within;
   parent = grid.place(up, context);
   grid.moments.resize(grid.size());

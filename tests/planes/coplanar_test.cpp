@@ -88,5 +88,22 @@ TEST(Coplanar, FloorsAtSmallStepsAreNeitherTiltedNorOne) {
     }
 }
 
+// A floor that falls by 3 mm a metre in coordinates of two or three decimals lies on levels, which are no terraces.
+TEST(Coplanar, LevelsOfRoundedCoordinatesAreOneFloor) {
+  for (const double rounding : {0.01, 0.001}) {
+    PointCloud cloud;
+    Random random(13);
+    test::add_rectangle(cloud, {0, 0, 0}, {10, 0, 0.03}, {0, 6, 0}, 0.03, 0.0, random);
+    for (const double y : {0.0, 6.0}) test::add_rectangle(cloud, {0, y, 0}, {10, 0, 0.03}, {0, 0, 3}, 0.03, 0.0, random);
+    for (const double x : {0.0, 10.0}) test::add_rectangle(cloud, {x, 0, 0.003 * x}, {0, 6, 0}, {0, 0, 3}, 0.03, 0.0, random);
+    for (Vec3& p : cloud.positions) p = (p / rounding).array().round().matrix() * rounding + Vec3(412345.678, 5212345.678, 12.3);
+    const test::Run r = test::run(cloud, Options());
+    EXPECT_EQ(r.result.planes.size(), 5u) << rounding;
+    const auto floor = std::find_if(r.result.planes.begin(), r.result.planes.end(), [](const ArrangedPlane& p) { return std::abs(p.plane.normal.z()) > 0.9; });
+    ASSERT_NE(floor, r.result.planes.end());
+    EXPECT_NEAR(degrees(line_angle(floor->plane.normal, Vec3(-0.003, 0, 1).normalized())), 0.0, 0.02) << rounding;
+  }
+}
+
 }  // namespace
 }  // namespace unseen::planes
