@@ -6,7 +6,6 @@
 
 #include "unseen/core/quantile.h"
 
-
 namespace unseen::collision {
 
 constexpr double kUnsure = 0.06;  // deviation of the restitution from which on it is worth another solve

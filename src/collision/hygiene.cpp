@@ -10,7 +10,6 @@
 
 #include "unseen/core/quantile.h"
 
-
 namespace unseen::collision {
 namespace {
 

@@ -7,7 +7,6 @@
 
 #include "unseen/core/quantile.h"
 
-
 namespace unseen::collision {
 namespace {
 

@@ -9,7 +9,6 @@
 
 #include "unseen/core/quantile.h"
 
-
 namespace unseen::collision {
 namespace {
 

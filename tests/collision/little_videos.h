@@ -11,6 +11,8 @@
 #include <opencv2/videoio.hpp>
 #include <string>
 
+#include "unseen/collision/types.h"
+#include "unseen/core/context.h"
 #include "unseen/core/geometry.h"
 #include "unseen/core/random.h"
 
@@ -63,6 +65,23 @@ inline void add_noise(cv::Mat& frame, double sigma, Random& random) {
 inline void write_video(const std::string& path, int frames, const std::function<cv::Mat(int)>& draw, double fps = 50.0) {
   cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('F', 'F', 'V', '1'), fps, {kWidth, kHeight});
   for (int k = 0; k < frames; ++k) writer.write(draw(k));
+}
+
+inline const cv::Scalar kRed(40, 40, 210);
+
+inline Shot shot_of(const std::string& path) {
+  Shot shot;
+  shot.name = shot.video = path;
+  return shot;
+}
+
+/// Where the disc of most tests is.
+inline Vec2 thrown(int k) { return {30.0 + 6.3 * k, 190.0 - 12.0 * k + 0.3 * k * k}; }
+
+inline bool warned(Context& context, const std::string& word) {
+  for (const std::string& w : context.take_warnings())
+    if (w.find(word) != std::string::npos) return true;
+  return false;
 }
 
 }  // namespace unseen::collision::test

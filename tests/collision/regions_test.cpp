@@ -3,29 +3,15 @@
 #include "collision/regions.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 
-#include "collision/hygiene.h"
 #include "little_videos.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision::test {
 namespace {
-
-const cv::Scalar kRed(40, 40, 210);
-
-Shot shot_of(const std::string& path) {
-  Shot shot;
-  shot.name = shot.video = path;
-  return shot;
-}
-
-/// Where the disc of most tests is.
-Vec2 thrown(int k) { return {30.0 + 6.3 * k, 190.0 - 12.0 * k + 0.3 * k * k}; }
 
 /// Largest distance of the region nearest to each true centre, over the frames in [first, last].
 double worst_error(const Footage& footage, int first, int last, const std::function<Vec2(int)>& truth) {
@@ -36,12 +22,6 @@ double worst_error(const Footage& footage, int first, int last, const std::funct
     worst = std::max(worst, nearest);
   }
   return worst;
-}
-
-bool warned(Context& context, const std::string& word) {
-  for (const std::string& w : context.take_warnings())
-    if (w.find(word) != std::string::npos) return true;
-  return false;
 }
 
 TEST(Regions, CentroidAndDiameterOfAMovingDisc) {
@@ -115,25 +95,6 @@ TEST(Regions, FlickerAndBlackFramesAreNoMovers) {
   EXPECT_LT(worst_error(footage, 1, 10, thrown), 0.5);
 }
 
-// Lamps at 100 Hz, filmed at 120 frames a second: the light comes back every sixth frame, and changes by nothing twice in that time.
-TEST(Regions, FlickeringLightRepeatsNoFrame) {
-  const Scratch scratch("lamp");
-  const std::string path = scratch.file("lamp.avi");
-  Random random(3);
-  const cv::Mat background = wall();
-  write_video(path, 40, [&](int k) {
-    cv::Mat frame = background.clone();
-    draw_disc(frame, thrown(k), 12.0, kRed);
-    frame *= 0.9 + 0.06 * std::sin(2.0 * kPi * (k + 0.5) / 6.0);
-    add_noise(frame, 0.5, random);
-    return frame;
-  });
-  Context context;
-  const Footage footage = find_regions(shot_of(path), context);
-  EXPECT_EQ(std::count(footage.doubled.begin(), footage.doubled.end(), 1), 0);
-  EXPECT_FALSE(warned(context, "repeat"));
-}
-
 /// A film by an unsteady hand whose first frames are black.
 void expect_steadied(int black) {
   const Scratch scratch("hand");
@@ -169,25 +130,6 @@ TEST(Regions, APanIsNoticed) {
   Context context;
   EXPECT_TRUE(find_regions(shot_of(path), context).moving_camera);
   EXPECT_TRUE(warned(context, "camera moves"));
-}
-
-TEST(Regions, DoubledFramesAreMarked) {
-  const Scratch scratch("doubled");
-  const std::string path = scratch.file("doubled.avi");
-  Random random(2);
-  const cv::Mat background = wall();
-  cv::Mat last;
-  write_video(path, 30, [&](int k) {
-    if (k == 7 || k == 19) return last;
-    last = background.clone();
-    draw_disc(last, thrown(k), 12.0, kRed);
-    add_noise(last, 2.0, random);
-    return last;
-  });
-  Context context;
-  const Footage footage = find_regions(shot_of(path), context);
-  for (int k = 0; k < 30; ++k) EXPECT_EQ(footage.doubled[k] != 0, k == 7 || k == 19) << k;
-  EXPECT_TRUE(warned(context, "repeat"));
 }
 
 TEST(Regions, WhatRestsMostOfTheTimeIsNoBackground) {
@@ -339,62 +281,6 @@ TEST(Regions, RoiFramesAndRateOfTheShot) {
     for (const Region& r : frame) EXPECT_LE(r.box.br().x, 150);
   shot.roi = {400, 0, 10, 10};
   EXPECT_THROW(find_regions(shot, context), InputError);
-}
-
-TEST(Regions, BrokenFilesAreNamed) {
-  const Scratch scratch("broken");
-  Context context;
-  const auto field = [&](const std::string& path) -> std::string {
-    try {
-      find_regions(shot_of(path), context);
-    } catch (const InputError& e) {
-      EXPECT_EQ(e.source, path);
-      EXPECT_FALSE(e.expected.empty());
-      return e.field;
-    }
-    return "no error";
-  };
-  EXPECT_EQ(field(scratch.file("none.mp4")), "video");
-  std::ofstream(scratch.file("text.mp4")) << "not a video\n";
-  EXPECT_EQ(field(scratch.file("text.mp4")), "video");
-  std::ofstream(scratch.file("empty.avi"));
-  EXPECT_EQ(field(scratch.file("empty.avi")), "video");
-  write_video(scratch.file("one.avi"), 1, [](int) { return wall(); });
-  EXPECT_EQ(field(scratch.file("one.avi")), "frames");
-}
-
-TEST(Regions, ATruncatedFileGivesAWarning) {
-  const Scratch scratch("cut");
-  const std::string whole = scratch.file("whole.avi"), cut = scratch.file("cut.avi");
-  Random random(3);
-  write_video(whole, 30, [&](int k) {
-    cv::Mat frame = wall();
-    draw_disc(frame, thrown(k), 12.0, kRed);
-    add_noise(frame, 2.0, random);
-    return frame;
-  });
-  std::ifstream in(whole, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
-  std::ofstream(cut, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size() * 6 / 10));
-  Context context;
-  const Footage footage = find_regions(shot_of(cut), context);
-  EXPECT_LT(footage.times.size(), 22u);
-  EXPECT_GT(footage.times.size(), 12u);
-  EXPECT_TRUE(warned(context, "announced"));
-}
-
-TEST(Hygiene, UnevenStampsAreUsedAndSaid) {
-  Context context;
-  const std::vector<double> even{0.0, 0.04, 0.08, 0.12}, uneven{0.0, 0.04, 0.08, 0.16, 0.2, 0.24}, broken{0.0, 0.04, 0.08, 0.0};
-  EXPECT_NEAR(frame_times(even, 25.0, {}, "v", context)[3], 0.12, 1e-12);
-  EXPECT_NEAR(frame_times(broken, 25.0, {}, "v", context)[3], 0.12, 1e-12);
-  EXPECT_NEAR(frame_times(even, 25.0, 250.0, "v", context)[3], 0.012, 1e-12);
-  EXPECT_FALSE(warned(context, "uneven"));
-  for (const double average : {25.0, 20.8}) EXPECT_NEAR(frame_times(uneven, average, {}, "v", context)[5], 0.24, 1e-9);
-  EXPECT_NEAR(frame_times(uneven, 20.8, 250.0, "v", context)[5], 0.024, 1e-9);
-  EXPECT_TRUE(warned(context, "uneven"));
-  const std::vector<double> holed{0.0, 0.04, 0.0, 0.12, 0.16};
-  EXPECT_NEAR(frame_times(holed, 25.0, {}, "v", context)[4], 0.16, 1e-9);
 }
 
 }  // namespace
