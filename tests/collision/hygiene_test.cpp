@@ -25,7 +25,7 @@ TEST(Hygiene, FlickeringLightRepeatsNoFrame) {
   write_video(path, 40, [&](int k) {
     cv::Mat frame = background.clone();
     draw_disc(frame, thrown(k), 12.0, kRed);
-    frame *= 0.9 + 0.06 * std::sin(2.0 * kPi * (k + 0.5) / 6.0);
+    frame *= 0.9 + 0.06 * std::sin(2.0 * kPi * k / 6.0);
     add_noise(frame, 0.5, random);
     return frame;
   });
