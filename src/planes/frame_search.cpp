@@ -21,9 +21,9 @@ FrameSearch::FrameSearch(const SelectionProblem& problem, const Context& context
       offers_(offers_of(problem)),
       cost_((problem.lambda * problem.data).cwiseMin(kImpossible)),
       near_(problem.patches()),
-      frames_of_(problem.patches()) {
+      offers_to_(problem.patches()) {
   for (int k = 0; k < p_.frames(); ++k)
-    for (const Offer& o : offers_[k]) frames_of_[o.patch].push_back(k);
+    for (const Offer& o : offers_[k]) offers_to_[o.patch].emplace_back(k, o.cost);
   for (const auto& [a, b] : p_.neighbours) {
     near_[a].push_back(b);
     near_[b].push_back(a);
@@ -38,7 +38,7 @@ std::vector<int> FrameSearch::fixed() const {
 }
 
 std::vector<int> FrameSearch::open_frames(std::vector<int> open) const {
-  std::vector<double> known, saves;
+  std::vector<double> known(p_.patches(), 0.0), saves(p_.frames(), 0.0);
   while (true) {
     context_.check();
     const Best now = best_of(open);
@@ -130,8 +130,8 @@ FrameSearch::State FrameSearch::improve(State state) const {
 
 std::vector<int> FrameSearch::promising(const std::vector<int>& open, std::size_t count) const {
   std::vector<int> result;
-  std::vector<double> saves;
-  update_savings({}, best_of(open).cost, saves);
+  std::vector<double> saves(p_.frames(), 0.0);
+  update_savings(std::vector<double>(p_.patches(), 0.0), best_of(open).cost, saves);
   for (const Addition& a : ranked_additions(open, saves, openings(open)))
     if (result.size() < count) result.push_back(a.frame);
   return result;
@@ -204,16 +204,9 @@ std::vector<double> FrameSearch::openings(const std::vector<int>& open) const {
 }
 
 void FrameSearch::update_savings(const std::vector<double>& known, const std::vector<double>& now, std::vector<double>& saves) const {
-  std::vector<char> stale(p_.frames(), known.empty());
-  saves.resize(p_.frames());
-  for (std::size_t j = 0; j < known.size(); ++j)
-    if (known[j] != now[j])
-      for (const int k : frames_of_[j]) stale[k] = 1;
-  for (int k = 0; k < p_.frames(); ++k) {
-    if (!stale[k]) continue;
-    double sum = 0;
-    for (const Offer& o : offers_[k]) sum += std::max(0.0, now[o.patch] - o.cost);
-    saves[k] = sum;
+  for (std::size_t j = 0; j < now.size(); ++j) {
+    if (known[j] == now[j]) continue;
+    for (const auto& [k, cost] : offers_to_[j]) saves[k] += std::max(0.0, now[j] - cost) - std::max(0.0, known[j] - cost);
   }
 }
 

@@ -55,8 +55,7 @@ class FrameSearch {
   /// Irregularities of each frame with the open ones, summed.
   std::vector<double> openings(const std::vector<int>& open) const;
 
-  /// Data cost that each frame takes off what patches pay now. `saves` holds what it was for the costs known before, if any: frames that
-  /// offer nothing to a patch whose cost has changed keep it.
+  /// Data cost that each frame takes off what patches pay now. `saves` holds what it was for the costs known before: nothing where all were zero.
   void update_savings(const std::vector<double>& known, const std::vector<double>& now, std::vector<double>& saves) const;
 
   /// A closed frame, by what opening it changes in data and irregularity, and how much data cost it saves of that.
@@ -86,7 +85,7 @@ class FrameSearch {
   const Offers offers_;
   const Eigen::MatrixXd cost_;          ///< λ·D, patches × frames, with a large number for infinite
   std::vector<std::vector<int>> near_;
-  std::vector<std::vector<int>> frames_of_;  ///< that offer a patch something
+  std::vector<std::vector<std::pair<int, double>>> offers_to_;  ///< of each patch: frame and cost
 };
 
 }  // namespace unseen::planes
