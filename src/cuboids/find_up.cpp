@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cuboids/supports.h"
 
@@ -17,7 +18,8 @@ constexpr int kFewestLinks = 8;       // between a piece and what it stands on
 constexpr double kOff = 6.0;          // σ from every plane
 constexpr double kCarriesMost = 0.6;  // of the points of all pieces
 constexpr double kClearlyMore = 1.5;  // evidence that it takes to turn a picture
-const double kTurned = radians(60.0), kSteep = std::sin(radians(30.0));
+constexpr double kFills = 0.5, kHardlyAny = 0.05;  // of a picture
+const double kTurned = radians(60.0), kSteep = std::sin(radians(30.0)), kStraight = std::cos(radians(20.0));
 
 /// Connected points beside the large planes, and how it is linked to each of them.
 struct Piece {
@@ -99,8 +101,8 @@ std::vector<Piece> find_pieces(const Scan& scan, const std::vector<Level>& level
 }
 
 /// Share of the pieces, by points, that start from a plane which faces `up`. All that stands does so from its ground;
-/// from a wall only what was put against it.
-double carried_share(const Scan& scan, const std::vector<Level>& planes, const Vec3& up) {
+/// from a wall only what was put against it. None if there are no pieces.
+std::optional<double> carried_share(const Scan& scan, const std::vector<Level>& planes, const Vec3& up) {
   const std::vector<Level> levels = large_or_facing(planes, up);
   double all = 0, carried = 0;
   for (const Piece& piece : find_pieces(scan, levels)) {
@@ -110,7 +112,7 @@ double carried_share(const Scan& scan, const std::vector<Level>& planes, const V
     all += piece.points;
     if (links >= kFewestLinks) carried += piece.points;
   }
-  return all > 0.0 ? carried / all : 0.0;
+  return all > 0.0 ? std::optional(carried / all) : std::nullopt;
 }
 
 /// m²: what faces `up`, the less the more the camera would look at a wall as nobody looks at a floor, whatever it is turned
@@ -121,6 +123,15 @@ double evidence(const Scan& scan, const std::vector<int>& large, const Vec3& up,
     if (scan.faces.faces[f].plane.normal.dot(up) > kHorizontal) area += scan.faces.faces[f].area;
   const double pitch = (kDown * up.head<2>().norm() - kForward * up.z()) / std::hypot(kDown, kForward);
   return std::pow(std::max(pitch, 0.0) * share, 4) * area;
+}
+
+/// Whether a camera looks straight at a plane that fills most of its picture, as at a floor from above, and hardly any of it faces `usual`.
+bool fills_the_picture(const Scan& scan, const std::vector<Level>& planes, const Level& level, const Vec3& usual) {
+  double facing = 0;
+  for (const Level& other : planes)
+    if (other.plane.normal.dot(usual) > kHorizontal) facing += static_cast<double>(points_of(scan, other.faces).size());
+  const double all = static_cast<double>(scan.points.size());
+  return level.plane.normal.z() < -kStraight && static_cast<double>(points_of(scan, level.faces).size()) > kFills * all && facing < kHardlyAny * all;
 }
 
 }  // namespace
@@ -141,12 +152,13 @@ FoundUp find_up(const Scan& scan) {
       if (const double told = evidence(scan, large, level.plane.normal, 1.0); told > most) most = told, found.up = level.plane.normal;
     return found;
   }
-  const double usual_evidence = evidence(scan, large, usual, carried_share(scan, planes, usual));
+  const double usual_evidence = evidence(scan, large, usual, carried_share(scan, planes, usual).value_or(0.0));
   double most = usual_evidence;
   for (const Level& level : large_or_facing(planes, usual)) {
     const Vec3& up = level.plane.normal;
-    if (!is_turned(up) || up.dot(usual) > kHorizontal || evidence(scan, large, up, 1.0) <= most) continue;
-    const double share = carried_share(scan, planes, up), told = evidence(scan, large, up, share);
+    const bool straight = fills_the_picture(scan, planes, level, usual);
+    if (!(is_turned(up) || straight) || up.dot(usual) > kHorizontal || evidence(scan, large, up, 1.0) <= most) continue;
+    const double share = carried_share(scan, planes, up).value_or(straight ? 1.0 : 0.0), told = evidence(scan, large, up, share);
     if (share < kCarriesMost || told <= most) continue;
     most = told;
     found.ambiguous = told < kClearlyMore * usual_evidence;

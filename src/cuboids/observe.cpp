@@ -21,6 +21,7 @@ constexpr int kFewestSupportPoints = 60;
 constexpr double kFirstWidth = 3.0;  // σ, of a piece of support that has a normal of its own; objects have no room for it
 const double kFlatCosine = std::cos(radians(35.0));
 const double kSameUp = std::cos(radians(5.0)), kNearVertical = std::cos(radians(5.0));
+const double kMostSlope = std::cos(radians(30.0));  // of a ramp that stands for the ground
 
 void check_frame(const RgbdFrame& frame) {
   if (frame.is_fused()) {
@@ -186,11 +187,17 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
     if (frame.up && frame.up->normalized().dot(found.up) > kSameUp) found.up = frame.up->normalized();
   } else {
     const FoundUp told = frame.up ? FoundUp{frame.up->normalized()} : find_up(scan);
-    const Vec3& up = told.up;
+    Vec3 up = told.up;
     if (!up.allFinite() || up.norm() < 0.5) throw InputError(frame.name, "depth", "no plane", "a surface to stand on in the picture (or --support)");
     found = find_supports(scan, up, flat.unnamed);
     if (frame.up && found.upside_down)
       throw InputError(frame.name, "up", "a direction that only undersides face", "the direction against gravity, and a surface to stand on in the picture (or --support)");
+    if (frame.up && found.supports.empty())
+      if (const Vec3 slope = find_up(scan).up; slope.dot(up) > kMostSlope) {
+        context.warn(fmt::format("no plane is orthogonal to the given up: what leans by {:.0f}° is taken for the ground, and its normal for up", degrees(line_angle(slope, up))));
+        up = slope;
+        found = find_supports(scan, up, flat.unnamed);
+      }
     if (found.supports.empty())
       throw InputError(frame.name, "depth", "no horizontal plane", "a surface to stand on that no mask names, in the picture or by --support");
     if (frame.up && found.up.dot(up) < kSameUp) found.up = up;

@@ -3,8 +3,11 @@
 #include "cuboids/picture_registration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -16,16 +19,21 @@ constexpr double kFarFromEdge = 6.0;    // pixels: what is farther counts as so 
 constexpr double kLeastScale = 0.9, kScaleStep = 0.01;
 constexpr int kScaleSteps = 10, kShiftSteps = 8, kAxisTurns = 3;
 constexpr double kRegistrationSteps[] = {1.0, 0.25};  // pixels of shift, and hundredths of scale
-constexpr double kScaleGain = 0.85;     // of the mean distance, that another scale may leave
+constexpr double kScaleGain = 0.85;     // of the mean distance, that another scale may leave …
+constexpr double kClearGain = 0.7;      // … however little all parts of the picture agree
+constexpr double kFits = 1.2;           // pixels of mean distance, at which nothing is off
 constexpr std::size_t kMostScalePixels = 500;
 constexpr std::size_t kFewestCreases = 30;
 
-/// Pixels: mean distance to the picture's edges, and what the shift costs.
-double cost(const ImageEdges& edges, const std::vector<Vec2>& pixels, const PictureRegistration& r) {
+/// Pixels: mean distance to the picture's edges.
+double distance(const ImageEdges& edges, const std::vector<Vec2>& pixels, const PictureRegistration& r) {
   double sum = 0;
   for (const Vec2& p : pixels) sum += std::min(edges.distance(r.to_picture(p)), kFarFromEdge);
-  return sum / static_cast<double>(pixels.size()) + kShiftCost * r.shift.norm();
+  return sum / static_cast<double>(pixels.size());
 }
+
+/// The same, and what the shift costs.
+double cost(const ImageEdges& edges, const std::vector<Vec2>& pixels, const PictureRegistration& r) { return distance(edges, pixels, r) + kShiftCost * r.shift.norm(); }
 
 PictureRegistration shifted(const ImageEdges& edges, const std::vector<Vec2>& pixels, PictureRegistration r) {
   PictureRegistration best = r;
@@ -56,6 +64,25 @@ PictureRegistration scaled(const ImageEdges& edges, const std::vector<Vec2>& pix
   return best;
 }
 
+/// Whether one registration leaves less than another in each quarter of the pixels: what but one thing asks for is no scale.
+bool better_in_quarters(const ImageEdges& edges, const std::vector<Vec2>& pixels, const PictureRegistration& better, const PictureRegistration& than) {
+  std::vector<double> x, y;
+  for (const Vec2& p : pixels) x.push_back(p.x()), y.push_back(p.y());
+  const Vec2 middle(median(std::move(x)), median(std::move(y)));
+  std::array<std::vector<Vec2>, 4> quarters;
+  for (const Vec2& p : pixels) quarters[(p.x() < middle.x()) + 2 * (p.y() < middle.y())].push_back(p);
+  return std::all_of(quarters.begin(), quarters.end(), [&](const std::vector<Vec2>& quarter) {
+    return quarter.empty() || distance(edges, quarter, better) < distance(edges, quarter, than);
+  });
+}
+
+/// Whether a picture of another scale fits so much better than one that is shifted, and does not fit as it is.
+bool is_scaled(const ImageEdges& edges, const std::vector<Vec2>& pixels, const PictureRegistration& stretched, const PictureRegistration& moved) {
+  const double left = cost(edges, pixels, stretched), shifted = cost(edges, pixels, moved);
+  if (shifted < kFits || left > kScaleGain * shifted) return false;
+  return left < kClearGain * shifted || better_in_quarters(edges, pixels, stretched, moved);
+}
+
 }  // namespace
 
 PictureRegistration register_picture(const ImageEdges& edges, const std::vector<Vec2>& creases, const std::vector<Vec2>& all, const Vec2& center) {
@@ -64,7 +91,7 @@ PictureRegistration register_picture(const ImageEdges& edges, const std::vector<
   std::vector<Vec2> some;
   for (std::size_t k = 0; k < all.size(); k += all.size() / kMostScalePixels + 1) some.push_back(all[k]);
   const PictureRegistration moved = shifted(edges, some, as_it_is), stretched = scaled(edges, some, moved);
-  if (cost(edges, some, stretched) < kScaleGain * cost(edges, some, moved)) return stretched;
+  if (is_scaled(edges, some, stretched, moved)) return stretched;
   const PictureRegistration on_creases = shifted(edges, creases, as_it_is);
   // Faint creases are in no picture's edges; then there is nothing to register.
   return cost(edges, creases, on_creases) < kMostRegistered ? on_creases : as_it_is;

@@ -21,7 +21,7 @@ constexpr double kDeskShare = 0.1;            // … of a desk that no mask name
 constexpr double kCarryHeight = 0.5;          // m
 constexpr double kWallShare = 0.25;           // of the square of the scene's radius
 constexpr double kMostBehindWall = 0.03;      // of the points
-constexpr double kOver = 0.25, kClearlyBehind = 0.05;  // of a wall's height; m
+constexpr double kOver = 0.25, kBeside = 1.0, kClearlyBehind = 0.05;  // of a wall's height and width; m
 constexpr double kDeskArea = 0.4;  // m²; what is flat and as large may carry things itself
 constexpr double kBelow = 0.1, kBelowShare = 0.05;  // m below the ground, share of the points
 constexpr int kColumns = 512;
@@ -90,22 +90,29 @@ bool bounds_the_scene(const Scan& scan, const Level& level, const Vec3& u, const
   return static_cast<double>(behind) <= kMostBehindWall * static_cast<double>(behind + before);
 }
 
-/// Whether something was seen over most of its upper edge that lies behind it: the front of a cupboard, not a wall.
+/// Whether something that lies behind it was seen beyond most of its upper edge, or of both upright ones: the front of a cupboard or of a box, not a wall.
 bool ends_before_its_background(const Scan& scan, const Level& level, const Vec3& across, const Vec3& along) {
+  constexpr int kEdgeParts = 20;
   Vec2 low = level.outline.front(), high = low;
   for (const Vec2& p : level.outline) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double top = high.y() + kOver * (high.y() - low.y());
-  std::array<char, 20> behind{};  // parts of the edge
+  const Vec2 size = high - low;
+  std::array<std::array<char, kEdgeParts>, 3> behind{};  // parts of the edges: above, left, right
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const double share = (across.dot(scan.points[i]) - low.x()) / (high.x() - low.x()), height = along.dot(scan.points[i]);
     const double noise = 6.0 * scan.graph.sigma[i];
-    if (share <= 0.0 || share >= 1.0 || height < high.y() - noise || height > top) continue;
-    if (level.plane.signed_distance(scan.points[i]) < -std::max(noise, kClearlyBehind)) behind[static_cast<std::size_t>(share * behind.size())] = 1;
+    if (level.plane.signed_distance(scan.points[i]) >= -std::max(noise, kClearlyBehind)) continue;
+    const Vec2 p(across.dot(scan.points[i]), along.dot(scan.points[i]));
+    const Vec2 share = (p - low).cwiseQuotient(size);
+    const auto within = [&](int k) { return share[k] > 0.0 && share[k] < 1.0; };
+    const auto mark = [&](int edge, int k) { behind[edge][static_cast<std::size_t>(share[k] * kEdgeParts)] = 1; };
+    if (within(0) && p.y() >= high.y() - noise && share.y() <= 1.0 + kOver) mark(0, 0);
+    if (within(1) && p.x() <= low.x() + noise && share.x() >= -kBeside) mark(1, 1);
+    if (within(1) && p.x() >= high.x() - noise && share.x() <= 1.0 + kBeside) mark(2, 1);
   }
-  return 2 * std::count(behind.begin(), behind.end(), 1) > static_cast<std::ptrdiff_t>(behind.size());
+  const auto ends = [&](int edge) { return 2 * std::count(behind[edge].begin(), behind[edge].end(), 1) > kEdgeParts; };
+  return ends(0) || (ends(1) && ends(2));
 }
 
 /// Walls go down to the ground, behind what hides them there.

@@ -4,6 +4,7 @@
 
 #include "cuboids/interface.h"
 #include "perception_scenes.h"
+#include "unseen/core/error.h"
 #include "unseen/cuboids/cuboids.h"
 
 namespace unseen::cuboids::test {
@@ -94,6 +95,31 @@ TEST(Up, OfALargeBareWallBesideASmallFloorIsThatOfTheFloor) {
   EXPECT_TRUE(told.warnings.empty());
 }
 
+TEST(Up, StraightAboveIsThatOfTheFloorNotOfASideOfABox) {  // to which the floor is upright
+  Scene scene;
+  scene.height = 2.2;
+  scene.pitch = radians(89.0);
+  scene.boxes = {upright(-0.4, 0.2, 0, {0.4, 0.3, 0.2}, 20), upright(0.3, 0.3, 0, {0.3, 0.3, 0.4}, -10), upright(0.1, -0.3, 0, {0.5, 0.25, 0.15}, 0),
+                 upright(0.15, -0.3, 0.15, {0.2, 0.15, 0.1}, 30)};
+  EXPECT_LT(up_of(scene).error, 1.0);
+}
+
+TEST(Up, ThatNoPlaneIsOrthogonalToGivesWayToThatOfARamp) {
+  const Scene scene = few_boxes();
+  RgbdFrame frame = render(scene);
+  const Vec3 normal = camera_of(scene).rotation.row(2).transpose();
+  const auto leaning = [&](double angle) -> Vec3 { return Eigen::AngleAxisd(radians(angle), Vec3::UnitX()) * normal; };
+  frame.up = leaning(14.0);
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  EXPECT_LT(degrees(line_angle(seen.T_world_camera.rotation.row(2).transpose(), normal)), 1.0);
+  const std::vector<std::string> warnings = context.take_warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("leans by 14°"), std::string::npos) << warnings[0];
+  frame.up = leaning(40.0);
+  EXPECT_THROW(observe(frame, {}, context), InputError);
+}
+
 /// A box on a floor in front of a wall, which is `distance` m away and wider than the picture.
 Scene before_a_wall(double distance) {
   Scene scene;
@@ -113,6 +139,16 @@ TEST(Walls, FarAwayAreOnesToo) {
       EXPECT_LT(p.seen.supports[1].plane.normal.y(), -0.999) << distance;
       EXPECT_EQ(p.cuboids.size(), 1u) << distance;
     }
+}
+
+TEST(Walls, AreNotLargeBoxesWhoseTopsAreNotInThePicture) {
+  Scene scene = before_a_wall(3.4);
+  scene.boxes.front() = upright(0.1, 2.2, 0, {1.6, 0.8, 1.8}, 8);
+  const Perceived p = perceive(render(scene));
+  ASSERT_EQ(p.seen.supports.size(), 2u);
+  EXPECT_NEAR(p.seen.supports[1].plane.signed_distance(Vec3(0, 3.4, 1.0)), 0.0, 0.03);
+  ASSERT_EQ(p.cuboids.size(), 1u);
+  EXPECT_NEAR(2.0 * p.cuboids[0].box.half_size.head<2>().maxCoeff(), 1.6, 0.03);
 }
 
 TEST(Walls, AreNotPiercedByWhatStandsAgainstThem) {

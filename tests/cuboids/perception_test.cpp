@@ -323,6 +323,29 @@ TEST(ImageEdges, TellTheScaleOfThePicture) {
   }
 }
 
+/// Pixels along the outline of a rectangle.
+std::vector<Vec2> outline_of(const Vec2& low, const Vec2& high) {
+  std::vector<Vec2> pixels;
+  for (double x = low.x(); x <= high.x(); x += 5.0) pixels.emplace_back(x, low.y()), pixels.emplace_back(x, high.y());
+  for (double y = low.y(); y <= high.y(); y += 5.0) pixels.emplace_back(low.x(), y), pixels.emplace_back(high.x(), y);
+  return pixels;
+}
+
+TEST(ImageEdges, OfOneThingDoNotScaleThePicture) {  // the others show no edges
+  RgbdFrame frame;
+  frame.camera = {525, 525, 319.5, 239.5, 640, 480};
+  const Vec2 center(frame.camera.cx, frame.camera.cy);
+  for (int v = 0; v < 480; ++v)
+    for (int u = 0; u < 640; ++u) frame.color.push_back(u >= 30 && u < 290 && v >= 20 && v < 220 ? std::array<std::uint8_t, 3>{200, 200, 200} : std::array<std::uint8_t, 3>{60, 60, 60});
+  std::vector<Vec2> all;
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {320.0, 0.0}, {0.0, 240.0}, {320.0, 240.0}})
+    for (const Vec2& p : outline_of(Vec2(30 + x, 20 + y), Vec2(290 + x, 220 + y))) all.push_back(center + (p - center) / 0.95);
+  const PictureRegistration r = register_picture(ImageEdges(frame), all, all, center);
+  EXPECT_EQ(r.scale, Vec2(1.0, 1.0));
+  std::vector<Vec2> one(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 4));
+  EXPECT_NEAR(register_picture(ImageEdges(frame), one, one, center).scale.x(), 0.95, 0.005);  // where it is all there is
+}
+
 TEST(ImageEdges, WinBackInAPictureOfAnotherScaleToo) {
   Scene scene = two_apart();
   scene.dropout = 2;
