@@ -291,14 +291,13 @@ bool are_boxes(const Observation& seen, const DepthView& view, const std::vector
 std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context) {
   const GroupedFaces faces = faces_of(seen, parts);
   std::vector<ObjectPart> result;
+  int stacks = 0;
+  for (const ObjectPart& part : parts) stacks = std::max(stacks, part.stack + 1);
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     ObjectPart& part = parts[k];
-    if (!part.label.empty()) {
-      result.push_back(std::move(part));
-      continue;
-    }
-    const auto keep = [&](std::vector<int>&& points) { result.push_back({std::move(points), {}, false, part.stack, part.level}); };
+    const std::size_t first = result.size();
+    const auto keep = [&](std::vector<int>&& points) { result.push_back({std::move(points), part.label, part.free_orientation, part.stack, part.level}); };
     const Mat3 axes = box_axes(seen, view, part.points, faces.of_group[k], false);
     std::vector<std::vector<int>> open{part.points};
     if (explained_share(part.points, faces.of_group[k], axes) >= kFlat)  // it looks like one box
@@ -325,6 +324,9 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
       else
         for (Piece& piece : pieces) keep(std::move(piece.points));
     }
+    if (part.label.empty() || result.size() == first + 1) continue;
+    for (std::size_t i = first; i < result.size(); ++i) result[i].stack = stacks, result[i].level = static_cast<int>(i - first);  // one object, but not one box
+    ++stacks;
   }
   return result;
 }

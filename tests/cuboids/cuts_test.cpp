@@ -4,6 +4,7 @@
 
 #include "cuboids/slabs.h"
 #include "perception_scenes.h"
+#include "unseen/cuboids/cuboids.h"
 
 namespace unseen::cuboids::test {
 namespace {
@@ -16,14 +17,18 @@ Scene bridge() {
   return scene;
 }
 
+void expect_boxes_of_bridge(const std::vector<Cuboid>& cuboids) {
+  for (const OrientedBox& box : bridge().boxes)
+    EXPECT_TRUE(std::any_of(cuboids.begin(), cuboids.end(), [&](const Cuboid& cuboid) {
+      const Vec3 size = 2.0 * (cuboid.initial.half_size - box.half_size), place = cuboid.initial.center - box.center;
+      return std::hypot(size.x(), size.z()) < 0.02 && std::hypot(place.x(), place.z()) < 0.02;
+    }));
+}
+
 TEST(Cuts, APlankIsPartedFromTheBlocksThatCarryIt) {
   const RgbdFrame frame = render(bridge());
   const Perceived p = perceive(frame);
-  for (const OrientedBox& box : bridge().boxes)
-    EXPECT_TRUE(std::any_of(p.fitted.begin(), p.fitted.end(), [&](const Cuboid& cuboid) {
-      const Vec3 size = 2.0 * (cuboid.box.half_size - box.half_size), place = cuboid.box.center - box.center;
-      return std::hypot(size.x(), size.z()) < 0.02 && std::hypot(place.x(), place.z()) < 0.02;
-    }));
+  expect_boxes_of_bridge(p.fitted);
   const DepthView view(frame, p.seen.T_world_camera, depth_noise(frame, {}));
   for (const Cuboid& cuboid : p.fitted) EXPECT_GT(filled_share(view, cuboid.box, 0.005), 0.9);
 }
@@ -46,11 +51,14 @@ TEST(Cuts, ARoundThingStaysWhole) {  // a twelve-sided column leaves a fifth of 
   EXPECT_EQ(perceive(render(scene)).parts.size(), 1u);
 }
 
-TEST(Cuts, WhatAMaskNamesStaysWhole) {
+TEST(Cuts, WhatAMaskNamesIsCutTooAndOneBody) {
   RgbdFrame frame = render(bridge());
   for (const auto& c : frame.color) frame.masks.push_back(c[2] != 0 ? 1 : 0);
-  const Perceived p = perceive(frame);
-  for (const Cuboid& cuboid : p.fitted) EXPECT_EQ(cuboid.object, p.fitted.front().object);
+  Context context;
+  const Completion found = complete_cuboids(frame, Options{}, context);
+  ASSERT_EQ(found.cuboids.size(), 3u);
+  expect_boxes_of_bridge(found.cuboids);
+  for (const Cuboid& cuboid : found.cuboids) EXPECT_EQ(cuboid.object, found.cuboids.front().object);
 }
 
 TEST(Cuts, BoxesTurnedOnEachOtherAreCutOnceEach) {  // in the axes of one, the hull of the other holds little that is free
