@@ -9,6 +9,7 @@ namespace unseen::interactions {
 namespace {
 
 constexpr double kPathSd = 0.12, kHeightSd = 0.06, kRaySd = 0.06;  // m: of the path, the scenelet's pelvis height, a joint about its ray
+constexpr double kSmoothTime = 0.1, kSmoothSigmas = 3.0;  // s: what a body does not change its motion in
 
 /// A pose with its pelvis at the origin, and where its pelvis is expected.
 struct Draft {
@@ -72,12 +73,25 @@ Pose bend(const Pose& pose, const Sight& sight, const Vec3& camera) {
   return bent;
 }
 
-/// A mean over three frames, in which neighbours count half; only frames that follow each other take part.
-void smooth(std::vector<PersonFrame>& frames) {
+/// A mean over neighbouring frames, weighted by a Gaussian in time, as far on either side as frames follow each other on both.
+void smooth(std::vector<PersonFrame>& frames, double fps) {
   const std::vector<PersonFrame> before = frames;
-  for (std::size_t i = 1; i + 1 < frames.size(); ++i) {
-    if (before[i + 1].frame - before[i - 1].frame > 2) continue;
-    frames[i].pose = 0.5 * before[i].pose + 0.25 * (before[i - 1].pose + before[i + 1].pose);
+  const int reach = static_cast<int>(kSmoothSigmas * kSmoothTime * fps);
+  const auto frame_at = [&](std::size_t i, int offset) {  // none where a frame is missing
+    const auto at = static_cast<std::ptrdiff_t>(i) + offset;
+    const bool is_one = at >= 0 && at < std::ssize(before) && before[at].frame - before[i].frame == offset;
+    return is_one ? &before[at] : nullptr;
+  };
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    double sum = 1.0;
+    for (int k = 1; k <= reach; ++k) {
+      const PersonFrame *earlier = frame_at(i, -k), *later = frame_at(i, k);
+      if (!earlier || !later) break;
+      const double sigmas = k / (fps * kSmoothTime), weight = std::exp(-0.5 * sigmas * sigmas);
+      frames[i].pose += weight * (earlier->pose + later->pose);
+      sum += 2.0 * weight;
+    }
+    frames[i].pose /= sum;
   }
 }
 
@@ -98,7 +112,7 @@ std::vector<PersonFrame> find_motion(const std::vector<Sight>& sights, const std
     const Vec3 at = place_pelvis(*draft, sight, view.center());
     frames.push_back({sight.frame, bend(draft->local.colwise() + at, sight, view.center()), draft->source, draft->action, sight.confidence});
   }
-  smooth(frames);
+  smooth(frames, fps);
   return frames;
 }
 

@@ -219,6 +219,30 @@ TEST(Motion, IsNearTheTruthAndContinuous) {
   }
 }
 
+/// m/s²: mean acceleration of joints where three frames follow each other.
+double acceleration(const std::vector<std::pair<int, Pose>>& poses, double fps) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
+    if (poses[i + 1].first - poses[i - 1].first != 2) continue;
+    sum += (poses[i - 1].second - 2.0 * poses[i].second + poses[i + 1].second).colwise().norm().mean() * fps * fps;
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(Motion, DoesNotShakeAtAnyFrameRate) {  // where scenelets and the detector's noise change from frame to frame
+  for (const double fps : {10.0, 50.0}) {
+    SynthOptions options = test::synth_options(4002, 12);
+    options.fps = fps;
+    const Told t(4002, options);
+    std::vector<std::pair<int, Pose>> found, truth;
+    for (const PersonFrame& f : t.motion()) found.emplace_back(f.frame, f.pose);
+    for (const RecordedFrame& f : t.synth.truth.people[0]) truth.emplace_back(f.frame, f.pose);
+    EXPECT_LT(acceleration(found, fps), 2.0 * acceleration(truth, fps)) << fps;
+  }
+}
+
 TEST(Motion, WithoutLiftedPosesIsThatOfScenelets) {
   SynthOptions options = test::synth_options(4001, 20);
   options.lifted = false;
