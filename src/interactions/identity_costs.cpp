@@ -3,9 +3,12 @@
 #include "interactions/identity_costs.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "interactions/slips.h"
 
 namespace unseen::interactions {
 namespace {
@@ -15,25 +18,54 @@ constexpr int kMostSlots = 45;         ///< of memory, which bounds the number o
 constexpr double kMostLinks = 1e6;
 constexpr double kSure = 4.0;          ///< a neighbour is sure if the next best has moved so many times its squared distance
 constexpr double kNoise = 25.0;        ///< px², added to both
+constexpr double kAlone = 3.0;         ///< times as far as the median joint: the detector's error
+constexpr double kAlike = 0.8;         ///< of the weight: as many joints of one side are seen as of the other
 constexpr double kSureWithin = 0.5;    ///< s
 constexpr int kVelocitySteps = 3;      ///< neighbours that a velocity is the mean of
 
-/// Confidence-weighted sums over joints of motion and squared motion that a velocity leaves. px
+/// Confidence-weighted sums over joints of motion and squared motion that a velocity leaves; joints that jump alone count as three times the median. px
 struct Motion {
   double weight = 0, squared = 0;
   Vec2 sum = Vec2::Zero();
 };
-Motion motion(const Detection& a, const Detection& b, const Vec2& predicted) {
-  Motion m;
+Motion motion(const Detection& a, const Detection& b, const Vec2& predicted, bool exchange) {
+  struct Moved {
+    double weight, squared;
+    Vec2 by;
+  };
+  std::array<Moved, kJoints> moved;
+  std::array<double, kJoints> squares;
+  std::size_t count = 0;
   for (int j = 0; j < kJoints; ++j) {
-    const double weight = a.confidence[j] * b.confidence[j];
+    const int k = exchange ? other_side(j) : j;
+    const double weight = a.confidence[j] * b.confidence[k];
     if (!(weight > 0)) continue;
-    const Vec2 moved = b.pixels.col(j) - a.pixels.col(j) - predicted;
-    m.weight += weight;
-    m.sum += weight * moved;
-    m.squared += weight * moved.squaredNorm();
+    const Vec2 by = b.pixels.col(k) - a.pixels.col(j) - predicted;
+    squares[count] = by.squaredNorm();
+    moved[count] = {weight, squares[count], by};
+    ++count;
+  }
+  Motion m;
+  if (count == 0) return m;
+  std::nth_element(squares.begin(), squares.begin() + count / 2, squares.begin() + count);
+  const double most = kAlone * kAlone * (squares[count / 2] + kNoise);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double kept = std::min(1.0, most / std::max(moved[i].squared, 1e-12));
+    m.weight += moved[i].weight;
+    m.sum += moved[i].weight * std::sqrt(kept) * moved[i].by;
+    m.squared += moved[i].weight * kept * moved[i].squared;
   }
   return m;
+}
+
+/// The same, with left and right exchanged in one of them if they have moved less so: detectors take the one for the other.
+Motion motion(const Detection& a, const Detection& b, const Vec2& predicted) {
+  const Motion as_told = motion(a, b, predicted, false);
+  Motion exchanged = motion(a, b, predicted, true);
+  if (!(exchanged.weight > kAlike * as_told.weight)) return as_told;
+  const double scale = as_told.weight / exchanged.weight;
+  exchanged = {as_told.weight, scale * exchanged.squared, scale * exchanged.sum};
+  return exchanged.squared < as_told.squared ? exchanged : as_told;
 }
 
 /// The detection of `others` that is surely the same person as `from`; −1 if that is not sure.

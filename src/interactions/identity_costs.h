@@ -37,7 +37,8 @@ double leave_cost(const Detection& detection);
 /// Of a person at two detections of different frames and none between: the mean over joints of confidence-weighted squared motion in half
 /// diagonals of the image (Eq. 6.15), over the number of frames between, plus the frames missed: each costs kAbsent + kMissed, or together
 /// leaving and coming back if that is less. Motion is what the velocity before the one does not explain, or the velocity after the other,
-/// whichever explains more: people who cross would otherwise seem to turn back.
+/// whichever explains more: people who cross would otherwise seem to turn back. A joint that jumps alone counts as three times the median,
+/// and left may be right in one of them, as detectors err so.
 double link_cost(const Take& take, const Sightings& sightings, int from, int to);
 
 /// Of a person's whole path, given as its detections by frame: the model that identify() minimises.

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "interactions/identities.h"
+#include "interactions/slips.h"
 #include "unseen/core/error.h"
 
 namespace unseen::interactions {
@@ -63,6 +64,7 @@ Take merge_takes(const std::vector<Take>& takes) {
     }
     remark_on_people(take, persons, all.remarks);
   }
+  undo_slips(all);
   return all;
 }
 
