@@ -16,7 +16,7 @@ constexpr double kLeft = 0.25;       // of the squared jumps, that exchanging ma
 constexpr double kNoise = 25.0;      // px²: smaller jumps tell nothing
 constexpr double kThereAndBack = 0.14, kAlone = 3.0;  // s; times as far as the median joint
 
-/// Joints that are taken for those of the other side together.
+/// First and last of the joints that are taken for those of the other side together.
 struct Limbs {
   int first, last;
 };
@@ -25,7 +25,7 @@ constexpr std::array<Limbs, 2> kLimbs = {{{right_ankle, left_ankle}, {right_wris
 void exchange(Detection& detection, const Limbs& limbs) {
   const Detection before = detection;
   for (int k = limbs.first; k <= limbs.last; ++k) {
-    const int other = limbs.first + limbs.last - k;
+    const int other = other_side(k);
     detection.pixels.col(k) = before.pixels.col(other);
     detection.confidence[k] = before.confidence[other];
     if (before.local) detection.local->col(k) = before.local->col(other);
@@ -36,7 +36,7 @@ void exchange(Detection& detection, const Limbs& limbs) {
 double jump(const Detection& a, const Detection& b, const Limbs& limbs, bool exchanged) {
   double weight = 0, squared = 0;
   for (int k = limbs.first; k <= limbs.last; ++k) {
-    const int to = exchanged ? limbs.first + limbs.last - k : k;
+    const int to = exchanged ? other_side(k) : k;
     const double both = a.confidence[k] * b.confidence[to];
     weight += both;
     squared += both * (b.pixels.col(to) - a.pixels.col(k)).squaredNorm();
@@ -50,7 +50,7 @@ double apart(const Take& take, const Detection& a, const Detection& b) { return 
 
 void put_sides_right(const Take& take, const Track& track, const Limbs& limbs) {
   for (std::size_t first = 1; first < track.size(); ++first) {
-    if (apart(take, *track[first - 1], *track[first]) > kLongest) continue;
+    if (apart(take, *track[first - 1], *track[first]) > kLongest || jump(*track[first - 1], *track[first], limbs, false) < kNoise) continue;
     for (std::size_t last = first; last + 1 < track.size() && apart(take, *track[first], *track[last]) <= kLongest && apart(take, *track[last], *track[last + 1]) <= kLongest; ++last) {
       const auto jumps = [&](bool exchanged) { return jump(*track[first - 1], *track[first], limbs, exchanged) + jump(*track[last], *track[last + 1], limbs, exchanged); };
       const double as_told = jumps(false);
