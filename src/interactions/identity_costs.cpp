@@ -18,7 +18,6 @@ constexpr int kMostSlots = 45;         ///< of memory, which bounds the number o
 constexpr double kMostLinks = 1e6;
 constexpr double kSure = 4.0;          ///< a neighbour is sure if the next best has moved so many times its squared distance
 constexpr double kNoise = 25.0;        ///< px², added to both
-constexpr double kAlone = 3.0;         ///< times as far as the median joint: the detector's error
 constexpr double kAlike = 0.8;         ///< of the weight: as many joints of one side are seen as of the other
 constexpr double kSureWithin = 0.5;    ///< s
 constexpr int kVelocitySteps = 3;      ///< neighbours that a velocity is the mean of
@@ -47,8 +46,7 @@ Motion motion(const Detection& a, const Detection& b, const Vec2& predicted, boo
   }
   Motion m;
   if (count == 0) return m;
-  std::nth_element(squares.begin(), squares.begin() + count / 2, squares.begin() + count);
-  const double most = kAlone * kAlone * (squares[count / 2] + kNoise);
+  const double most = lone_jump({squares.data(), count});
   for (std::size_t i = 0; i < count; ++i) {
     const double kept = std::min(1.0, most / std::max(moved[i].squared, 1e-12));
     m.weight += moved[i].weight;

@@ -6,15 +6,14 @@
 #include <array>
 #include <map>
 
-#include "unseen/core/quantile.h"
-
 namespace unseen::interactions {
 namespace {
 
 constexpr double kLongest = 0.3;     // s, that sides are wrong for, or between detections that are compared
-constexpr double kLeft = 0.25;       // of the squared jumps, that exchanging may leave
-constexpr double kNoise = 25.0;      // px²: smaller jumps tell nothing
-constexpr double kThereAndBack = 0.14, kAlone = 3.0;  // s; times as far as the median joint
+constexpr double kLeftOver = 0.25;       // of the squared jumps, that exchanging may leave
+constexpr double kJitter = 25.0;      // px²: smaller jumps tell nothing
+constexpr double kAlone = 3.0;       // times as far as the median joint
+constexpr double kThereAndBack = 0.14;  // s
 
 /// First and last of the joints that are taken for those of the other side together.
 struct Limbs {
@@ -33,7 +32,7 @@ void exchange(Detection& detection, const Limbs& limbs) {
 }
 
 /// px²: confidence-weighted mean of squared motion of some limbs, or of those of one side to those of the other.
-double jump(const Detection& a, const Detection& b, const Limbs& limbs, bool exchanged) {
+double limb_jump(const Detection& a, const Detection& b, const Limbs& limbs, bool exchanged) {
   double weight = 0, squared = 0;
   for (int k = limbs.first; k <= limbs.last; ++k) {
     const int to = exchanged ? other_side(k) : k;
@@ -44,17 +43,17 @@ double jump(const Detection& a, const Detection& b, const Limbs& limbs, bool exc
   return weight > 0 ? squared / weight : 0.0;
 }
 
-using Track = std::vector<Detection*>;  // of a person, by frame
+using PersonTrack = std::vector<Detection*>;  // of a person, by frame
 
 double apart(const Take& take, const Detection& a, const Detection& b) { return (b.frame - a.frame) / take.fps; }
 
-void put_sides_right(const Take& take, const Track& track, const Limbs& limbs) {
+void put_sides_right(const Take& take, const PersonTrack& track, const Limbs& limbs) {
   for (std::size_t first = 1; first < track.size(); ++first) {
-    if (apart(take, *track[first - 1], *track[first]) > kLongest || jump(*track[first - 1], *track[first], limbs, false) < kNoise) continue;
+    if (apart(take, *track[first - 1], *track[first]) > kLongest || limb_jump(*track[first - 1], *track[first], limbs, false) < kJitter) continue;
     for (std::size_t last = first; last + 1 < track.size() && apart(take, *track[first], *track[last]) <= kLongest && apart(take, *track[last], *track[last + 1]) <= kLongest; ++last) {
-      const auto jumps = [&](bool exchanged) { return jump(*track[first - 1], *track[first], limbs, exchanged) + jump(*track[last], *track[last + 1], limbs, exchanged); };
+      const auto jumps = [&](bool exchanged) { return limb_jump(*track[first - 1], *track[first], limbs, exchanged) + limb_jump(*track[last], *track[last + 1], limbs, exchanged); };
       const double as_told = jumps(false);
-      if (as_told < 2.0 * kNoise || jumps(true) > kLeft * as_told) continue;
+      if (as_told < 2.0 * kJitter || jumps(true) > kLeftOver * as_told) continue;
       for (std::size_t i = first; i <= last; ++i) exchange(*track[i], limbs);
       break;
     }
@@ -68,30 +67,38 @@ struct Moves {
 };
 Moves moves(const Detection& a, const Detection& b) {
   Moves m;
-  std::vector<double> seen;
+  std::array<double, kJoints> seen;
+  std::size_t count = 0;
   for (int k = 0; k < kJoints; ++k) {
     if (!(a.confidence[k] * b.confidence[k] > 0)) continue;
     m.squared[static_cast<std::size_t>(k)] = (b.pixels.col(k) - a.pixels.col(k)).squaredNorm();
-    seen.push_back(m.squared[static_cast<std::size_t>(k)]);
+    seen[count++] = m.squared[static_cast<std::size_t>(k)];
   }
-  m.far = kAlone * kAlone * ((seen.empty() ? 0.0 : median(std::move(seen))) + kNoise);
+  m.far = lone_jump({seen.data(), count});
   return m;
 }
 
-void leave_out_jumps(const Take& take, const Track& track) {
+void leave_out_jumps(const Take& take, const PersonTrack& track) {
   for (std::size_t i = 1; i + 1 < track.size(); ++i) {
     if (apart(take, *track[i - 1], *track[i + 1]) > kThereAndBack) continue;
     const Moves there = moves(*track[i - 1], *track[i]), back = moves(*track[i], *track[i + 1]), both = moves(*track[i - 1], *track[i + 1]);
     for (std::size_t k = 0; k < kJoints; ++k)
-      if (there.squared[k] > there.far && back.squared[k] > back.far && both.squared[k] < kLeft * std::min(there.squared[k], back.squared[k]))
+      if (there.squared[k] > there.far && back.squared[k] > back.far && both.squared[k] < kLeftOver * std::min(there.squared[k], back.squared[k]))
         track[i]->confidence[static_cast<int>(k)] = 0.0;
   }
 }
 
 }  // namespace
 
+double lone_jump(std::span<double> squares) {
+  if (squares.empty()) return kAlone * kAlone * kJitter;
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return kAlone * kAlone * (*middle + kJitter);
+}
+
 void undo_slips(Take& take) {
-  std::map<int, Track> people;
+  std::map<int, PersonTrack> people;
   for (Detection& detection : take.detections) people[detection.person].push_back(&detection);
   for (auto& [person, track] : people) {
     std::stable_sort(track.begin(), track.end(), [](const Detection* a, const Detection* b) { return a->frame < b->frame; });
