@@ -125,13 +125,20 @@ double evidence(const Scan& scan, const std::vector<int>& large, const Vec3& up,
   return std::pow(std::max(pitch, 0.0) * share, 4) * area;
 }
 
+double points_on(const Scan& scan, const Level& level) {
+  double count = 0;
+  for (const int f : level.faces) count += static_cast<double>(scan.faces.faces[f].points.size());
+  return count;
+}
+
 /// Whether a camera looks straight at a plane that fills most of its picture, as at a floor from above, and hardly any of it faces `usual`.
 bool fills_the_picture(const Scan& scan, const std::vector<Level>& planes, const Level& level, const Vec3& usual) {
+  const double all = static_cast<double>(scan.points.size());
+  if (level.plane.normal.z() > -kStraight || points_on(scan, level) < kFills * all) return false;
   double facing = 0;
   for (const Level& other : planes)
-    if (other.plane.normal.dot(usual) > kHorizontal) facing += static_cast<double>(points_of(scan, other.faces).size());
-  const double all = static_cast<double>(scan.points.size());
-  return level.plane.normal.z() < -kStraight && static_cast<double>(points_of(scan, level.faces).size()) > kFills * all && facing < kHardlyAny * all;
+    if (other.plane.normal.dot(usual) > kHorizontal) facing += points_on(scan, other);
+  return facing < kHardlyAny * all;
 }
 
 }  // namespace
