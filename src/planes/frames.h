@@ -51,6 +51,9 @@ double tilt_chi2(const Patch& patch, const Vec3& normal);
 constexpr double kCertain = 25.0;
 double noise_chi2(const Patch& patch, const Vec3& normal);
 
+/// Directions that differ by less, rad, are one orientation.
+constexpr double kSameOrientation = 0.5 * kPi / 180.0;
+
 /// D: what it costs to give a patch the orientation `normal` (Eq. 3.7 in terms of significance): near zero
 /// within a standard error, 1 at three, and growing with the squared tilt beyond.
 double data_cost(const Patch& patch, const Vec3& normal);

@@ -3,34 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <numeric>
 
+#include "planes/even_sample.h"
 #include "planes/scale.h"
 #include "unseen/core/error.h"
 
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kSample = 300'000;
-constexpr std::size_t kMostSought = std::size_t{1}
-                                    << 25;  // points among which duplicates are sought: 24 bytes each
+constexpr std::size_t kMostSought = std::size_t{1} << 25;  // points among which duplicates are sought: 24 bytes each
 
-std::uint64_t mix(std::uint64_t h) {
-  h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ull;
-  h = (h ^ (h >> 27)) * 0x94D049BB133111EBull;
-  return h ^ (h >> 31);
-}
-
-/// Depends on the coordinates alone (0.0 and −0.0 are the same).
-std::uint64_t hash(const Vec3& p) {
-  std::uint64_t h = 0x9E3779B97F4A7C15ull;
-  for (int a = 0; a < 3; ++a) h = mix(h + std::bit_cast<std::uint64_t>(p[a] + 0.0));
-  return h;
-}
-
-std::uint64_t hash(const PointCloud& cloud, std::size_t point) {
-  return cloud.normals.empty() ? 0 : hash(cloud.normals[point].cast<double>());
+std::uint64_t hash_of_normal(const PointCloud& cloud, std::size_t point) {
+  return cloud.normals.empty() ? 0 : hash_of(cloud.normals[point].cast<double>());
 }
 
 /// Marks all but one of the points that share their coordinates (two places in 2⁶⁴ have the same hash). Which
@@ -46,7 +30,7 @@ void find_duplicates(PointSource& source, Survey& survey) {
   for_each_block(source, [&](const PointCloud& block, std::size_t first) {
     for (std::size_t i = 0; i < block.size(); ++i)
       if (block.positions[i].allFinite())
-        order.push_back({hash(block.positions[i]), hash(block, i), static_cast<std::uint32_t>(first + i)});
+        order.push_back({hash_of(block.positions[i]), hash_of_normal(block, i), static_cast<std::uint32_t>(first + i)});
   });
   std::sort(order.begin(), order.end());
   for (std::size_t i = 1; i < order.size(); ++i) {
@@ -105,76 +89,6 @@ void check_extent(const Survey& s, const std::string& name) {
                    fmt::format("an extent below {} m", kLongest));
 }
 
-struct Sampled {
-  std::uint64_t hash;
-  Vec3 position;
-  Vec3f normal;
-};
-
-/// At most kSample of the places seen: those whose hash starts with enough zeros. Which these are depends on
-/// all places seen, not on their order. A place is known by its hash, and holds the normal whose own hash is
-/// smallest.
-class EvenSample {
- public:
-  explicit EvenSample(std::size_t expected) { places_.reserve(std::min(expected, kSample + 1)); }
-  bool wants(std::uint64_t hash) const { return zeros_ == 0 || hash >> (64 - zeros_) == 0; }
-  void add(const Sampled& x) {
-    std::uint32_t& slot = slot_of(x.hash);
-    if (slot == 0) {
-      places_.push_back(x);
-      slot = static_cast<std::uint32_t>(places_.size());
-      if (places_.size() > kSample) thin();
-      if (2 * places_.size() > slots_.size()) fill(2 * slots_.size());
-      return;
-    }
-    twins_ = true;
-    Sampled& known = places_[slot - 1];
-    if (hash(x.normal.cast<double>()) < hash(known.normal.cast<double>())) known.normal = x.normal;
-  }
-  bool twins() const { return twins_; }
-  bool has_all() const { return zeros_ == 0; }
-  LargeVector<Sampled> by_hash() const {
-    const auto less = [](const Sampled& a, const Sampled& b) { return a.hash < b.hash; };
-    // Hashes are spread evenly: buckets of their leading digits hold a few places each.
-    const int digits = std::bit_width(places_.size() / kOfBucket);
-    const auto bucket_of = [&](const Sampled& x) { return digits == 0 ? 0 : (x.hash << zeros_) >> (64 - digits); };
-    std::vector<std::uint32_t> first((std::size_t{1} << digits) + 1, 0);
-    for (const Sampled& x : places_) ++first[bucket_of(x)];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    LargeVector<Sampled> sorted(places_.size());
-    for (const Sampled& x : places_) sorted[--first[bucket_of(x)]] = x;
-    for (std::size_t b = 0; b + 1 < first.size(); ++b) std::sort(sorted.begin() + first[b], sorted.begin() + first[b + 1], less);
-    return sorted;
-  }
-
- private:
-  std::uint32_t& slot_of(std::uint64_t hash) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t at = hash & mask;
-    while (slots_[at] != 0 && places_[slots_[at] - 1].hash != hash) at = (at + 1) & mask;
-    return slots_[at];
-  }
-  void thin() {
-    while (places_.size() > kSample) {
-      ++zeros_;
-      std::erase_if(places_, [&](const Sampled& x) { return !wants(x.hash); });
-    }
-    fill(slots_.size());
-  }
-  void fill(std::size_t slots) {
-    slots_.assign(slots, 0);
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      slot_of(places_[i].hash) = static_cast<std::uint32_t>(i + 1);
-  }
-
-  static constexpr std::size_t kOfBucket = 8;
-  int zeros_ = 0;
-  bool twins_ = false;
-  LargeVector<Sampled> places_;
-  LargeVector<std::uint32_t> slots_ =
-      LargeVector<std::uint32_t>(4096);  ///< a power of two; index + 1 into places_, 0 = free
-};
-
 }  // namespace
 
 Survey survey(PointSource& source, Context& context) {
@@ -197,7 +111,7 @@ Survey survey(PointSource& source, Context& context) {
         const float length = block.normals[i].squaredNorm();
         if (!(length > 0.25f && length < 4.0f)) ++s.without_normal;
       }
-      const std::uint64_t h = hash(p);
+      const std::uint64_t h = hash_of(p);
       if (sample.wants(h)) sample.add({h, p, normal ? block.normals[i] : Vec3f(Vec3f::Zero())});
     }
     s.points += block.size();
@@ -223,41 +137,6 @@ Survey survey(PointSource& source, Context& context) {
   leave_out_strays(s);
   check_extent(s, source.info().name);
   return s;
-}
-
-/// Whether a flat sample fills an area rather than lines: its box-counting dimension, from cells of an eighth
-/// of the extent down to a sixty-fourth or to eight points each.
-bool fills_area(const Survey& survey, int axis) {
-  constexpr double kPointsPerCell = 8, kFilled = 1.7;
-  const auto occupied = [&](int cells) {
-    const double edge = survey.extent() * (1.0 + 1e-9) / cells;
-    KeyTable table;
-    for (const Vec3& p : survey.sample) {
-      const Vec3 at = (p - survey.low) / edge;
-      table.insert(
-          {static_cast<std::int32_t>(at[(axis + 1) % 3]), static_cast<std::int32_t>(at[(axis + 2) % 3]), 0});
-    }
-    return static_cast<double>(table.keys().size());
-  };
-  double coarse = occupied(8);
-  for (int cells = 16; cells <= 64; cells *= 2) {
-    const double fine = occupied(cells);
-    if (cells > 16 && fine * kPointsPerCell > static_cast<double>(survey.sample.size())) break;
-    if (std::log2(fine / coarse) < kFilled) return false;
-    coarse = fine;
-  }
-  return true;
-}
-
-Space space_of(const Survey& survey, bool declared_2d) {
-  Space space;
-  const Vec3 extent = survey.high - survey.low;
-  if (declared_2d) space.flat_axis = Vec3::UnitZ();
-  for (int a = 2; a >= 0 && !space.is_2d(); --a)
-    if (extent[a] == 0.0 && extent[(a + 1) % 3] > 0.0 && extent[(a + 2) % 3] > 0.0 && !fills_area(survey, a))
-      space.flat_axis = Vec3::Unit(a);
-  if (space.is_2d()) space.flat_at = space.flat_axis->dot(survey.low);
-  return space;
 }
 
 double rounding_of(const Survey& survey) {
