@@ -8,6 +8,7 @@
 #include "collision/synth_look.h"
 #include "collision/synth_motion.h"
 #include "collision/synth_plan.h"
+#include "collision/synth_sight.h"
 #include "unseen/collision/synth.h"
 
 namespace unseen::collision {
@@ -17,80 +18,13 @@ constexpr int kSamples = 16;        // a pixel: at different places in it and ti
 constexpr double kShade = 0.45;     // of the light that a shadow takes
 constexpr int kNoiseValues = 1 << 14;
 
-/// Rows and columns [from, to) of a picture.
-struct Patch {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  bool holds(int u, int v) const { return u >= left && u < right && v >= top && v < bottom; }
-};
-
-Patch patch_around(const Vec2& center, double radius, const Camera& camera) {
-  const auto column = [&](double u) { return std::clamp(static_cast<int>(u), 0, camera.width); };
-  const auto row = [&](double v) { return std::clamp(static_cast<int>(v), 0, camera.height); };
-  return {column(center.x() - radius), row(center.y() - radius), column(center.x() + radius + 2), row(center.y() + radius + 2)};
-}
-
-Patch united(const Patch& a, const Patch& b) {
-  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
-}
-
-/// A body at one instant, seen from the camera's centre; everything in the body's axes.
-class Sight {
- public:
-  Sight(const SynthBody& body, const Paint& paint, const SynthPose& pose, const Mat3& R_world_camera)
-      : body_(&body), paint_(&paint), rotation_(pose.q.toRotationMatrix()), to_body_(rotation_.transpose() * R_world_camera),
-        eye_(-(rotation_.transpose() * pose.p)) {
-    for (const auto& f : body.faces) planes_.push_back({to_body_.transpose() * f.normal, f.offset - f.normal.dot(eye_)});
-  }
-
-  /// Distance along the ray (camera coordinates, z = 1), infinite for a miss; the face by which it enters.
-  double hit(const Vec3& ray, int& face) const {
-    return body_->sphere() ? hit_ball(ray) : hit_faces(ray, face);
-  }
-
-  Vec3 color(const Vec3& ray, double distance, int face) const {
-    const Vec3 place = eye_ + distance * (to_body_ * ray);
-    const Vec3 normal = body_->sphere() ? Vec3(place / body_->radius) : body_->faces[static_cast<std::size_t>(face)].normal;
-    return lit(rotation_ * normal) * paint_->at(face, place);
-  }
-
- private:
-  static constexpr double kMiss = std::numeric_limits<double>::infinity();
-
-  double hit_ball(const Vec3& ray) const {
-    const Vec3 d = to_body_ * ray;
-    const double a = d.squaredNorm(), b = eye_.dot(d), c = eye_.squaredNorm() - body_->radius * body_->radius, root = b * b - a * c;
-    return root < 0 ? kMiss : (-b - std::sqrt(root)) / a;
-  }
-
-  double hit_faces(const Vec3& ray, int& face) const {
-    double enter = 0, leave = kMiss;
-    for (std::size_t i = 0; i < planes_.size(); ++i) {
-      const double slope = planes_[i].first.dot(ray), at = planes_[i].second / slope;
-      if (slope < 0 && at > enter) {
-        enter = at;
-        face = static_cast<int>(i);
-      } else if (slope > 0 && at < leave) {
-        leave = at;
-      }
-      if (enter > leave) return kMiss;
-    }
-    return enter > 0 ? enter : kMiss;
-  }
-
-  const SynthBody* body_;
-  const Paint* paint_;
-  Mat3 rotation_, to_body_;
-  Vec3 eye_;
-  std::vector<std::pair<Vec3, double>> planes_;  ///< normal in camera axes, distance from the eye
-};
-
 /// A body as it moves while the shutter is open.
 struct Exposure {
-  std::vector<Sight> sights;  ///< one a sample
-  Patch patch;                ///< what they cover
+  std::vector<SynthSight> sights;  ///< one a sample
+  SynthPatch patch;                ///< what they cover
   Vec3 center;                ///< half-way, world
   double reach = 0;
-  Patch shadow;
+  SynthPatch shadow;
 };
 
 class Film {
@@ -171,7 +105,7 @@ class Film {
       const Vec3 p = T * pose.p;
       if (p.z() < 1.2 * shape.reach) return {};
       e.sights.emplace_back(shape, paints_[body], pose, scene_.truth.T_world_camera.rotation);
-      const Patch patch = patch_around(camera_.project(p), 1.3 * camera_.fx * shape.reach / (p.z() - shape.reach) + 1, camera_);
+      const SynthPatch patch = patch_around(camera_.project(p), 1.3 * camera_.fx * shape.reach / (p.z() - shape.reach) + 1, camera_);
       e.patch = k == 0 ? patch : united(e.patch, patch);
     }
     if (options_.shadow) e.shadow = shadow_patch(e, T);
@@ -179,14 +113,14 @@ class Film {
   }
 
   /// Where the shadow can fall, on wall and floor.
-  Patch shadow_patch(const Exposure& e, const RigidTransform& T_camera_world) const {
+  SynthPatch shadow_patch(const Exposure& e, const RigidTransform& T_camera_world) const {
     const Vec3 lamp = to_lamp();
-    Patch patch;
+    SynthPatch patch;
     bool any = false;
     const auto add = [&](double distance) {
       const Vec3 p = T_camera_world * Vec3(e.center - distance * lamp);
       if (distance < 0 || p.z() < 0.1) return;
-      const Patch here = patch_around(camera_.project(p), 4 * camera_.fx * e.reach / p.z(), camera_);
+      const SynthPatch here = patch_around(camera_.project(p), 4 * camera_.fx * e.reach / p.z(), camera_);
       patch = any ? united(patch, here) : here;
       any = true;
     };
@@ -223,7 +157,7 @@ class Film {
     for (int k = 0; near && k < kSamples; ++k) {
       const Vec3 ray = camera_.unproject(u + offsets_[k].x(), v + offsets_[k].y(), 1.0);
       double nearest = std::numeric_limits<double>::infinity();
-      const Sight* seen = nullptr;
+      const SynthSight* seen = nullptr;
       int face = 0;
       for (const Exposure& e : exposures) {
         int entered = 0;
@@ -264,7 +198,7 @@ class Film {
   Backdrop backdrop_;
   std::vector<SynthMover> movers_;
   std::vector<Paint> paints_;
-  Patch curtain_;
+  SynthPatch curtain_;
   std::array<Vec2, kSamples> offsets_;  ///< in the pixel: low-discrepancy points (Roberts' R2 sequence)
   std::vector<float> still_;  ///< levels of the picture without bodies
   std::vector<float> noise_;

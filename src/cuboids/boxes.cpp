@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cuboids/box_axes.h"
 #include "cuboids/box_fit.h"
 #include "cuboids/reach.h"
 #include "cuboids/slabs.h"

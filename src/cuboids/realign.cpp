@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "cuboids/box_axes.h"
 #include "cuboids/box_fit.h"
 #include "cuboids/complete.h"
 #include "cuboids/depth_noise.h"
