@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "commands.h"
 #include "synth.h"
@@ -16,13 +15,6 @@
 
 namespace unseen::cli {
 namespace {
-
-struct SynthCollisionArguments {
-  std::string out;
-  CommonFlags common;
-  GivenOptions given;
-  collision::SynthOptions options;
-};
 
 void film(const collision::SynthShot& scene, const collision::SynthOptions& options, const std::filesystem::path& path, Context& context) {
   io::VideoFile video(path, options.width, options.height, options.fps);
@@ -38,50 +30,36 @@ void write_texts(const collision::SynthShot& scene, const OptionTable& table, co
     if (body.shape == collision::Shape::mesh) write_text(out.file(body.name + ".obj"), report::body_obj(body));
 }
 
-int run(SynthCollisionArguments& args) {
-  OptionTable table = collision::describe(args.options);
-  if (resolve_or_dump(table, args.common, "synth", args.given)) return kSolved;
-  require(args.out, "-o DIR");
-
-  Session session(args.common);
-  Context& context = session.context;
-
-  io::OutputFolder out(args.out);
-  Summary summary;
+std::string make(const collision::SynthOptions& options, const SynthRun& run) {
   collision::SynthShot scene;
   {
-    const Stage stage(context, summary, "simulate");
-    scene = collision::simulate(args.options);
+    const Stage stage(run.context, run.summary, "simulate");
+    scene = collision::simulate(options);
   }
-  if (args.options.video) {
-    const Stage stage(context, summary, "film");
-    film(scene, args.options, out.file(scene.shot.video), context);
+  if (options.video) {
+    const Stage stage(run.context, run.summary, "film");
+    film(scene, options, run.out.file(scene.shot.video), run.context);
   }
   {
-    const Stage stage(context, summary, "write");
-    write_texts(scene, table, out);
+    const Stage stage(run.context, run.summary, "write");
+    write_texts(scene, run.table, run.out);
   }
-  summary.counts = {{"frames", scene.truth.frames.size()}, {"impacts", scene.truth.impacts.size()}};
+  run.summary.counts = {{"frames", scene.truth.frames.size()}, {"impacts", scene.truth.impacts.size()}};
   const auto& restitution = scene.truth.restitution;
-  publish(summary,
-          fmt::format("{} frames of {} impacts{}", scene.truth.frames.size(), scene.truth.impacts.size(),
-                      restitution ? fmt::format(", restitution {:.3f}", *restitution) : ""),
-          out, args.out, args.common, session);
-  return kSolved;
+  return fmt::format("{} frames of {} impacts{}", scene.truth.frames.size(), scene.truth.impacts.size(),
+                     restitution ? fmt::format(", restitution {:.3f}", *restitution) : "");
 }
 
 }  // namespace
 
 Command add_synth_collision(CLI::App& synth) {
-  auto args = std::make_shared<SynthCollisionArguments>();
-  CLI::App* sub = synth.add_subcommand("collision", "Film two bodies that collide, with their true motion");
-  sub->add_option("-o", args->out, "the folder for shot.json, truth.json, and shot.mp4 or observations.json")->type_name("DIR");
-  add_flags(*sub, collision::describe(args->options), args->given);
-  add_flags(*sub, args->common);
-  sub->footer(
-      "Examples:\n  unseen synth collision -o boxes --seed 7\n"
-      "  unseen synth collision -o tracks --scene offcentre --video=false --centroid-noise 0.05");
-  return {sub, [args] { return run(*args); }};
+  return add_synth<collision::SynthOptions>(
+      synth,
+      {"collision", "Film two bodies that collide, with their true motion",
+       "the folder for shot.json, truth.json, and shot.mp4 or observations.json",
+       "Examples:\n  unseen synth collision -o boxes --seed 7\n"
+       "  unseen synth collision -o tracks --scene offcentre --video=false --centroid-noise 0.05"},
+      make);
 }
 
 }  // namespace unseen::cli
