@@ -60,6 +60,18 @@ std::size_t size_of(Scalar type) {
   return with_type(type, [](auto value) { return sizeof(value); });
 }
 
+std::string plain_name(std::string_view name) {
+  std::string key = lower(trim(name));
+  if (const std::size_t unit = key.find_first_of("(["); unit != std::string::npos && unit > 0) key = trim(std::string_view(key).substr(0, unit));
+  std::string axis = key;
+  std::replace_if(axis.begin(), axis.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
+  for (const std::string_view around : {"cartesian", "coordinates", "coordinate", "coord", "position", "pos"})
+    if (const std::size_t at = axis.find(around); at != std::string::npos) std::fill_n(axis.begin() + static_cast<std::ptrdiff_t>(at), around.size(), ' ');
+  const std::vector<std::string_view> left = words(axis);
+  const bool names_axis = !left.empty() && left.size() <= 2 && left[0].size() == 1 && (left.size() == 1 || left[1] == "m");
+  return names_axis ? std::string(left[0]) : key;
+}
+
 Role role_of_name(std::string_view name, bool integer, const std::string& label_field) {
   if (!label_field.empty()) {
     if (name == label_field) return Role::label;
@@ -67,34 +79,22 @@ Role role_of_name(std::string_view name, bool integer, const std::string& label_
     for (const char* label : {"label", "segment_index", "plane", "class"})
       if (lower(name) == label) return Role::label;
   }
-  static constexpr std::pair<const char*, Role> kNames[] = {{"x", Role::x},
-                                                            {"y", Role::y},
-                                                            {"z", Role::z},
-                                                            {"easting", Role::x},
-                                                            {"east", Role::x},
-                                                            {"northing", Role::y},
-                                                            {"north", Role::y},
-                                                            {"height", Role::z},
-                                                            {"elevation", Role::z},
-                                                            {"altitude", Role::z},
-                                                            {"nx", Role::nx},
-                                                            {"ny", Role::ny},
-                                                            {"nz", Role::nz},
-                                                            {"normal_x", Role::nx},
-                                                            {"normal_y", Role::ny},
-                                                            {"normal_z", Role::nz},
-                                                            {"red", Role::red},
-                                                            {"green", Role::green},
-                                                            {"blue", Role::blue},
-                                                            {"diffuse_red", Role::red},
-                                                            {"diffuse_green", Role::green},
-                                                            {"diffuse_blue", Role::blue},
-                                                            {"r", Role::red},
-                                                            {"g", Role::green},
-                                                            {"b", Role::blue}};
-  const std::string key = lower(name);
-  for (const auto& [known, role] : kNames)
-    if (key == known) return role;
+  struct Known {
+    Role role;
+    std::initializer_list<std::string_view> names;
+  };
+  static const Known kKnown[] = {{Role::x, {"x", "points:0", "points_0", "easting", "east", "rechtswert"}},
+                                 {Role::y, {"y", "points:1", "points_1", "northing", "north", "hochwert"}},
+                                 {Role::z, {"z", "points:2", "points_2", "height", "elevation", "elev", "altitude", "höhe", "hoehe"}},
+                                 {Role::nx, {"nx", "normal_x", "normalx", "normals:0", "normals_0"}},
+                                 {Role::ny, {"ny", "normal_y", "normaly", "normals:1", "normals_1"}},
+                                 {Role::nz, {"nz", "normal_z", "normalz", "normals:2", "normals_2"}},
+                                 {Role::red, {"red", "diffuse_red", "r", "colorred", "rgb:0", "rgb_0"}},
+                                 {Role::green, {"green", "diffuse_green", "g", "colorgreen", "rgb:1", "rgb_1"}},
+                                 {Role::blue, {"blue", "diffuse_blue", "b", "colorblue", "rgb:2", "rgb_2"}}};
+  const std::string key = plain_name(name);
+  for (const Known& known : kKnown)
+    if (std::find(known.names.begin(), known.names.end(), key) != known.names.end()) return known.role;
   return Role::ignored;
 }
 

@@ -38,6 +38,8 @@ struct Attributes {
   bool normals = false, colors = false, labels = false;
 };
 
+/// A field's name in lower case, without its unit ("X (m)") and without what programs put around an axis ("pos_x", "cartesianX", "X coordinate").
+std::string plain_name(std::string_view name);
 /// The role that a field's name speaks of (upper or lower case). Labels: only for integers, unless
 /// `label_field` names the field.
 Role role_of_name(std::string_view name, bool integer, const std::string& label_field);

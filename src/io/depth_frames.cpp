@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 constexpr const char* kIntrinsics = "camera-intrinsics.txt";
 constexpr std::string_view kStart = "frame-", kDepth = ".depth.png";
 
-/// `count` numbers, wherever the lines break.
-std::vector<double> read_numbers(const fs::path& path, std::size_t count) {
+/// `count` numbers, or `other`, wherever the lines break.
+std::vector<double> read_numbers(const fs::path& path, std::size_t count, std::size_t other) {
   const auto bytes = FileBytes::open(path);
   const std::string_view text = bytes->view();
   if (text.size() > 100000)
@@ -32,13 +32,13 @@ std::vector<double> read_numbers(const fs::path& path, std::size_t count) {
         throw InputError(path.string(), "line " + std::to_string(lines.number()), shown(word), "a number");
       numbers.push_back(value);
     }
-  if (numbers.size() != count)
+  if (numbers.size() != count && numbers.size() != other)
     throw InputError(path.string(), "content", count_of(numbers.size(), "number"), std::to_string(count));
   return numbers;
 }
 
 RigidTransform read_pose(const fs::path& path) {
-  const std::vector<double> m = read_numbers(path, 16);
+  const std::vector<double> m = read_numbers(path, 16, 16);
   RigidTransform pose;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) pose.rotation(r, c) = m[static_cast<std::size_t>(4 * r + c)];
@@ -63,12 +63,13 @@ bool is_depth_image(const fs::path& path) {
 }  // namespace
 
 Camera read_intrinsics_text(const fs::path& path) {
-  const std::vector<double> k = read_numbers(path, 9);
+  const std::vector<double> k = read_numbers(path, 9, 16);
+  const std::size_t row = k.size() == 9 ? 3 : 4;
   Camera camera;
   camera.fx = k[0];
   camera.cx = k[2];
-  camera.fy = k[4];
-  camera.cy = k[5];
+  camera.fy = k[row + 1];
+  camera.cy = k[row + 2];
   if (!(camera.fx > 0.0 && camera.fy > 0.0) || !std::isfinite(camera.fx + camera.fy + camera.cx + camera.cy))
     throw InputError(path.string(), "focal lengths",
                      std::to_string(camera.fx) + ", " + std::to_string(camera.fy),

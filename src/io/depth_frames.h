@@ -23,7 +23,7 @@ struct DepthFolder {
   std::vector<std::string> notes;  ///< one for each frame left out
 };
 
-/// A file of 9 numbers, the camera matrix row by row; gives no size. Throws InputError.
+/// A file of 9 numbers, the camera matrix row by row, or of 16, that with a fourth row and column; gives no size. Throws InputError.
 Camera read_intrinsics_text(const std::filesystem::path& path);
 
 /// True if a folder holds depth images or their intrinsics.

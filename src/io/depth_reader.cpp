@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <cmath>
 #include <future>
 #include <set>
 
@@ -37,8 +38,9 @@ class DepthSource final : public PointSource {
     resize_empty(block);
     while (at_ < folder_.frames.size()) {
       const std::size_t frame = at_;
-      const Decoded image = ahead_.get();
+      Decoded image = ahead_.get();
       decode_ahead(frame + 1);
+      if (image.fault.empty()) check_size(image, frame);
       if (!image.fault.empty()) {
         if (faults_.insert(frame).second) info_.notes.push_back("frame left out: " + image.fault);
         continue;
@@ -50,7 +52,7 @@ class DepthSource final : public PointSource {
     }
     if (points_ == 0)
       throw InputError(
-          info_.name, "frames", info_.notes.empty() ? "no depth in range" : info_.notes.back(),
+          info_.name, "frames", info_.notes.empty() ? "no depth in range" : "none usable (" + info_.notes.back() + ")",
           "a depth from " + std::to_string(low_) + " to " + std::to_string(high_) + " m somewhere");
     return false;
   }
@@ -60,6 +62,24 @@ class DepthSource final : public PointSource {
     DepthImage depth;
     std::string fault;
   };
+
+  /// The intrinsics are those of one size of picture: that of the first.
+  void check_size(Decoded& image, std::size_t frame) {
+    const int width = image.depth.width, height = image.depth.height;
+    if (width_ == 0) {
+      width_ = width;
+      height_ = height;
+      const Camera& c = folder_.camera;
+      const auto central = [](double at, int length) { return std::abs(at / length - 0.5) < 0.3; };
+      if (!central(c.cx, width) || !central(c.cy, height))
+        info_.notes.push_back("the intrinsics' principal point (" + std::to_string(std::lround(c.cx)) + ", " + std::to_string(std::lround(c.cy)) + ") is far from the middle of pictures of " +
+                              size_text(width, height) + ": are they of another size?");
+    }
+    if (width != width_ || height != height_)
+      image.fault = folder_.frames[frame].image.string() + " has " + size_text(width, height) + ", others before it " + size_text(width_, height_);
+  }
+
+  static std::string size_text(int width, int height) { return std::to_string(width) + " x " + std::to_string(height) + " pixels"; }
 
   static void resize_empty(PointCloud& block) {
     block.positions.clear();
@@ -114,6 +134,7 @@ class DepthSource final : public PointSource {
   double low_ = 0, high_ = 0;  ///< m
   SourceInfo info_;
   std::size_t at_ = 0;  ///< the frame that is being decoded
+  int width_ = 0, height_ = 0;  ///< of the first picture
   std::size_t points_ = 0;
   bool started_ = false;
   std::set<std::size_t> faults_;  ///< frames that were noted

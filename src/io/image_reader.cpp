@@ -14,6 +14,10 @@
 namespace unseen::io {
 namespace {
 
+constexpr double kMostlyDark = 0.7;   // of the pixels
+constexpr double kBroad = 0.015;      // of the picture's shorter side: 3 mm of A4
+constexpr int kLeastBroad = 12;       // pixels
+constexpr double kMuch = 0.3, kAll = 0.99;  // of the dark pixels
 constexpr double kFaint = 0.6, kManyFaint = 0.35;  // of the dark pixels; an anti-aliased line one pixel wide has half as many
 
 /// Brightness of each pixel in [0,1], over white where the image is transparent.
@@ -35,17 +39,48 @@ cv::Mat brightness(cv::Mat image) {
   return grey.mul(alpha) + (1.0 - alpha);
 }
 
+/// True if most pixels are dark, but not all: light lines on a dark ground.
+bool is_inverted(const cv::Mat& grey, double threshold) {
+  const auto dark = static_cast<std::size_t>(cv::countNonZero(grey < threshold));
+  return dark < grey.total() && static_cast<double>(dark) > kMostlyDark * static_cast<double>(grey.total());
+}
+
+/// Broad dark areas that touch the picture's border, as a scanner's lid or a table around the sheet leaves them, if they are much of what is dark: 255 where
+/// they are. Walls are narrower.
+cv::Mat surroundings(const cv::Mat& dark) {
+  const int broad = std::max(kLeastBroad, static_cast<int>(kBroad * std::min(dark.rows, dark.cols)));
+  cv::Mat framed, areas, labels;
+  cv::copyMakeBorder(dark, framed, broad, broad, broad, broad, cv::BORDER_REPLICATE);  // what leaves the picture goes on
+  cv::morphologyEx(framed, areas, cv::MORPH_OPEN, cv::Mat::ones(broad, broad, CV_8U));
+  areas = areas(cv::Rect(broad, broad, dark.cols, dark.rows)).clone();
+  cv::Mat stats, centers;
+  const int count = cv::connectedComponentsWithStats(areas, labels, stats, centers);
+  cv::Mat outside = cv::Mat::zeros(dark.size(), CV_8U);
+  for (int k = 1; k < count; ++k) {
+    const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP), stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
+    if (box.x == 0 || box.y == 0 || box.br().x == dark.cols || box.br().y == dark.rows) outside.setTo(255, labels == k);
+  }
+  const double share = static_cast<double>(cv::countNonZero(outside)) / std::max(1, cv::countNonZero(dark));
+  if (share < kMuch || share > kAll) return cv::Mat::zeros(dark.size(), CV_8U);
+  cv::dilate(outside, outside, cv::Mat::ones(5, 5, CV_8U));  // with its blurred rim
+  return outside;
+}
+
 }  // namespace
 
 std::unique_ptr<PointSource> open_image(const Input& input) {
   const double threshold = input.options.threshold;
   if (!(threshold >= 0.0 && threshold <= 1.0))
     throw InputError("read options", "threshold", std::to_string(threshold), "a number 0…1");
-  const cv::Mat grey = brightness(decode_image(input.view(), input.name));
+  cv::Mat grey = brightness(decode_image(input.view(), input.name));
+  const bool inverted = is_inverted(grey, threshold);
+  if (inverted) grey = 1.0 - grey;
+  const cv::Mat outside = surroundings(grey < threshold);
   PointCloud cloud;
   std::size_t faint = 0;
   for (int row = 0; row < grey.rows; ++row)
     for (int column = 0; column < grey.cols; ++column) {
+      if (outside.at<std::uint8_t>(row, column) != 0) continue;
       const double value = grey.at<float>(row, column);
       if (value < threshold) cloud.positions.emplace_back(column, grey.rows - 1 - row, 0.0);
       faint += value >= threshold && value < kFaint;
@@ -58,8 +93,10 @@ std::unique_ptr<PointSource> open_image(const Input& input) {
   info.two_dimensional = true;
   info.notes.push_back(count_of(cloud.size(), "dark pixel") + " of " + std::to_string(grey.cols) + " x " +
                        std::to_string(grey.rows));
+  if (inverted) info.notes.push_back("most of the picture is dark: read as light lines on a dark ground");
+  if (cv::countNonZero(outside) > 0) info.notes.push_back("broad dark areas at the picture's border left out");
   if (gaps)
-    info.notes.push_back(count_of(faint, "grey pixel") + " left out: thin lines may have gaps; --threshold " + fmt::format("{}", kFaint) + " keeps them whole");
+    info.notes.push_back(count_of(faint, "grey pixel") + " left out: thin lines may have gaps; --threshold " + fmt::format("{}", kFaint) + " takes them too");
   return std::make_unique<OwnedCloudSource>(std::move(cloud), std::move(info));
 }
 

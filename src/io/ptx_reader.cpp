@@ -22,7 +22,6 @@ class PtxSource final : public PointSource {
     std::string_view line;
     if (!ahead.next_filled(line)) fail_truncated();
     attributes_.colors = words(line).size() >= 7;
-    info_.notes.push_back("grid cells without a return (0 0 0) left out");
   }
 
   SourceInfo info() const override { return info_; }
@@ -102,7 +101,10 @@ class PtxSource final : public PointSource {
     Vec3 point;
     for (int i = 0; i < 3; ++i)
       if (!read_number(p, end, point[i])) fail("point", line, "x y z intensity [red green blue]");
-    if (point == Vec3::Zero()) return;
+    if (point == Vec3::Zero()) {
+      if (info_.notes.empty()) info_.notes.push_back("grid cells without a return (0 0 0) left out");
+      return;
+    }
     block.positions.push_back(rotation_ * point + translation_);
     if (!attributes_.colors) return;
     std::array<double, 4> values{};  // intensity and colour

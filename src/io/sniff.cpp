@@ -63,6 +63,37 @@ Format sniff_text(std::string_view head) {
   return is_ptx(head) ? Format::ptx : Format::text;
 }
 
+/// A format that is not read, and what to make of it instead.
+struct Foreign {
+  const char *name = nullptr, *way_out = nullptr;
+};
+
+/// Nothing where the bytes are of none that is known here.
+Foreign foreign_format(std::string_view bytes) {
+  static constexpr const char *kPicture = "PNG or JPEG: save it as one of these", *kMesh = "PLY, OBJ or STL: Blender exports them", *kUnpacked = "the unpacked file",
+                              *kCloud = "PLY, PCD, LAS, PTX or rows of numbers: CloudCompare and ParaView export some of them";
+  struct Known {
+    std::string_view start;
+    Foreign format;
+  };
+  static const Known kKnown[] = {{{"II*\0", 4}, {"a TIFF image", kPicture}},  {{"MM\0*", 4}, {"a TIFF image", kPicture}},
+                                 {"GIF8", {"a GIF image", kPicture}},         {"%PDF", {"a PDF", "PNG or JPEG: save the page as one of these"}},
+                                 {"glTF", {"a glTF scene", kMesh}},           {"# vtk DataFile", {"a VTK file", kCloud}},
+                                 {"AC10", {"a DWG drawing", "a PNG of the drawing, or an OBJ or STL of its solids"}},
+                                 {"ISO-10303-21", {"a STEP or IFC model", "an OBJ or STL of it"}},
+                                 {"Kaydara FBX", {"an FBX scene", kMesh}},    {"PK\x03\x04", {"a ZIP archive", kUnpacked}},
+                                 {"\x1f\x8b", {"a gzip archive", kUnpacked}}, {"7z\xbc\xaf", {"a 7z archive", kUnpacked}},
+                                 {"<", {"an XML file", kMesh}},               {"{", {"a JSON file", kMesh}}};
+  for (const Known& known : kKnown)
+    if (starts_with(bytes, known.start)) return known.format;
+  if (starts_with(bytes, "BM") && bytes.substr(0, 64).find('\0') != std::string_view::npos) return {"a BMP image", kPicture};
+  if (starts_with(bytes, "RIFF") && bytes.substr(8, 4) == "WEBP") return {"a WebP image", kPicture};
+  Lines lines(bytes.substr(0, 256));
+  std::string_view first, second;
+  if (lines.next(first) && lines.next(second) && trim(first) == "0" && trim(second) == "SECTION") return {"a DXF drawing", "a PNG of the drawing, or an OBJ or STL of its solids"};
+  return {};
+}
+
 }  // namespace
 
 Format sniff(std::string_view bytes) {
@@ -126,6 +157,7 @@ std::string name_of(Format format) {
 
 Format decide_format(std::string_view bytes, const std::string& name, std::string_view extension) {
   if (bytes.empty()) throw InputError(name, "content", "an empty file", "points");
+  if (const Foreign foreign = foreign_format(bytes); foreign.name != nullptr) throw InputError(name, "content", foreign.name, foreign.way_out);
   const Format content = sniff(bytes), ending = format_of_extension(extension);
   const bool vague = content == Format::text || content == Format::unknown;
   if (ending == Format::unknown) {

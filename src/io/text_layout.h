@@ -28,7 +28,7 @@ struct TextLayout {
 /// numbers.
 TextLayout guess_text_layout(const Input& input);
 
-/// A line that holds a remark: it starts with # or //.
+/// A line that holds a remark: it starts with #, % or //.
 bool is_remark(std::string_view line);
 /// The parts of a row; blanks separate too, except that every separator other than a blank ends a part.
 std::vector<std::string_view> split_row(std::string_view line, char separator);

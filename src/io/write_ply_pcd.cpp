@@ -2,6 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "io/bytes_out.h"
 #include "io/file_writer.h"
 #include "io/writers.h"
@@ -10,9 +13,20 @@
 namespace unseen::io {
 namespace {
 
+/// How far single precision moves a coordinate at most, m. What is no number stays it.
+double lost_by_single(const Output& out) {
+  double most = 0;
+  for_each_block(out.source, [&](const PointCloud& block, std::size_t) {
+    out.context.check();
+    for (const Vec3& p : block.positions)
+      for (int k = 0; k < 3; ++k) most = std::max(most, std::isfinite(p[k]) ? std::abs(p[k] - static_cast<double>(static_cast<float>(p[k]))) : 0.0);
+  });
+  return most;
+}
+
 /// As long for every count, like the header of PlyWriter.
-std::string pcd_header(const Output& out, std::size_t count) {
-  std::string fields = "x y z", size = "8 8 8", type = "F F F", counts = "1 1 1";
+std::string pcd_header(const Output& out, bool single, std::size_t count) {
+  std::string fields = "x y z", size = single ? "4 4 4" : "8 8 8", type = "F F F", counts = "1 1 1";
   const auto add = [&](const char* f, const char* s, const char* t, const char* c) {
     fields += f;
     size += s;
@@ -61,15 +75,21 @@ void write_ply(const Output& out) {
 }
 
 void write_pcd(const Output& out) {
+  constexpr double kHardly = 1e-5;  // m
+  const bool single = lost_by_single(out) < kHardly;  // PCL and Open3D take no others
+  if (!single) out.context.warn("the coordinates need double precision, and programs that use PCL read none: take an offset off them first, or write PLY");
   FileWriter writer(out.path);
-  writer.write(pcd_header(out, 0));
+  writer.write(pcd_header(out, single, 0));
   std::size_t count = 0;
   std::string bytes;
   for_each_block(out.source, [&](const PointCloud& block, std::size_t) {
     out.context.check();
     bytes.clear();
     for (std::size_t i = 0; i < block.size(); ++i) {
-      for (int k = 0; k < 3; ++k) append_little(bytes, block.positions[i][k]);
+      for (int k = 0; k < 3; ++k) {
+        if (single) append_little(bytes, static_cast<float>(block.positions[i][k]));
+        else append_little(bytes, block.positions[i][k]);
+      }
       for (int k = 0; out.has.normals && k < 3; ++k) append_little(bytes, block.normals[i][k]);
       if (out.has.colors) {
         const auto& c = block.colors[i];
@@ -80,7 +100,7 @@ void write_pcd(const Output& out) {
     writer.write(bytes);
     count += block.size();
   });
-  writer.patch(0, pcd_header(out, count));
+  writer.patch(0, pcd_header(out, single, count));
   writer.close();
 }
 

@@ -49,15 +49,32 @@ void check_not_collinear(const VoxelGrid& grid, const Space& space, const std::s
     throw InputError(name, "points", "all in one line", "points on surfaces");
 }
 
-/// Warns of coordinates that single precision has rounded coarsely, as large ones are that were stored without an offset.
-void warn_of_lost_digits(const Survey& survey, double scale, Context& context) {
+/// Warns of coordinates that single precision has rounded coarsely, as large ones are that were stored without an offset; false if it has not.
+bool warn_of_single_precision(const Survey& survey, double scale, Context& context) {
   constexpr double kCoarse = 0.25;  // of the scale
   const auto farthest = static_cast<float>(std::max(survey.low.cwiseAbs().maxCoeff(), survey.high.cwiseAbs().maxCoeff()));
   const double step = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
   const auto single = [](const Vec3& p) { return p == p.cast<float>().cast<double>(); };
-  if (step < kCoarse * scale || !std::all_of(survey.sample.begin(), survey.sample.end(), single)) return;
+  if (step < kCoarse * scale || !std::all_of(survey.sample.begin(), survey.sample.end(), single)) return false;
   context.warn(fmt::format("the coordinates, up to {:.7g} m, are rounded to single precision, in steps of {:.2g} m: details below that are lost. "
                            "Export them in double precision, or less an offset", farthest, step));
+  return true;
+}
+
+/// Warns of text with so few digits that they end far before the details, as "5.6789e+06" does.
+void warn_of_few_digits(const Survey& survey, double scale, Context& context) {
+  constexpr double kCoarse = 0.25;          // of the scale
+  constexpr double kFewSteps = 100, kFar = 1e4;  // of the extent, and of the coordinates: a grid of points has more of these, or is nearer to the origin
+  for (int axis = 0; axis < 3; ++axis) {
+    const double extent = survey.high[axis] - survey.low[axis], farthest = std::max(std::abs(survey.low[axis]), std::abs(survey.high[axis]));
+    const auto comes_in = [&](double step) {
+      return farthest > kFar * step && std::all_of(survey.sample.begin(), survey.sample.end(), [&](const Vec3& p) { return std::abs(p[axis] / step - std::round(p[axis] / step)) < 1e-6; });
+    };
+    double step = std::pow(10.0, std::ceil(std::log10(std::max(kCoarse * scale, extent / kFewSteps))));
+    if (!(extent > 0.0) || !comes_in(step)) continue;
+    while (comes_in(10.0 * step)) step *= 10.0;
+    context.warn(fmt::format("{} comes in steps of {:.4g} m only: digits were lost when it was written. Export more of them, in binary, or less an offset", "xyz"[axis], step));
+  }
 }
 
 /// Warns where an estimated scale leaves most of the points without a plane, or a given one many because they are farther apart.
@@ -142,7 +159,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
     if (!options.scale && !options.relative_scale)
       context.message(fmt::format("scale {:.4g} m, estimated from spacing and noise; points may lie {:.4g} m from their plane", result.scale, tolerance));
-    warn_of_lost_digits(seen, result.scale, context);
+    if (!warn_of_single_precision(seen, result.scale, context)) warn_of_few_digits(seen, result.scale, context);
     summary.counts = {{"points", seen.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0},
                       {"finite", seen.finite}, {"duplicates", seen.duplicates}};
   }

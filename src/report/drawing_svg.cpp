@@ -12,6 +12,8 @@
 namespace unseen::report {
 namespace {
 
+constexpr double kLargestPaper = 100.0;  // m: what is larger, as the pixels of a picture, has a metre a pixel
+
 using Axes = std::array<int, 2>;  // of the world: right and up
 
 /// Metres right of and below `offset`.
@@ -48,14 +50,15 @@ std::string drawing_svg(const planes::Arrangement& a) {
   if (box.isEmpty()) box.extend(Vec2::Zero());
   const double longest = std::max(box.sizes().maxCoeff(), 1e-3), margin = 0.02 * longest;
   const Vec2 corner = box.min().array() - margin, size = box.sizes().array() + 2 * margin;
+  const bool true_size = longest < kLargestPaper;
   return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.3f}mm\" height=\"{1:.3f}mm\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.3f}{12}\" height=\"{1:.3f}{12}\" "
       "viewBox=\"{2:.6f} {3:.6f} {4:.6f} {5:.6f}\"\n"
       "  style=\"max-width:100%;max-height:100vh\" fill=\"none\" stroke-linecap=\"round\" "
       "stroke-width=\"{6:.6f}\">\n"
       "<desc>lines of unseen, metres; world {10} = x + {7}, world {11} = {8} - y</desc>\n{9}</svg>\n",
-      1e3 * size.x(), 1e3 * size.y(), corner.x(), corner.y(), size.x(), size.y(), 0.003 * longest, offset[axes[0]],
-      offset[axes[1]], groups(a, offset, axes), "xyz"[axes[0]], "xyz"[axes[1]]);
+      (true_size ? 1e3 : 1.0) * size.x(), (true_size ? 1e3 : 1.0) * size.y(), corner.x(), corner.y(), size.x(), size.y(), 0.003 * longest, offset[axes[0]],
+      offset[axes[1]], groups(a, offset, axes), "xyz"[axes[0]], "xyz"[axes[1]], true_size ? "mm" : "");
 }
 
 }  // namespace unseen::report

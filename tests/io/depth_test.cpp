@@ -61,6 +61,29 @@ TEST(Depth, BadFramesAreNotesAndNoisyPosesAreFine) {
   EXPECT_EQ(source->info().notes.size(), 6u);
 }
 
+TEST(Depth, FramesOfAnotherSizeAreLeftOut) {
+  const ScratchFolder folder;
+  write_file(folder / "camera-intrinsics.txt", "2 0 1 0\n0 2 0.5 0\n0 0 1 0\n0 0 0 1\n");
+  write_frame(folder, "frame-1", kPose, png16(3, 2, 1000));
+  write_frame(folder, "frame-2", kPose, png16(6, 4, 1000));
+  write_frame(folder, "frame-3", kPose, png16(3, 2, 1000));
+  const auto source = open_points(folder.path);
+  EXPECT_EQ(read_all(*source).size(), 12u);
+  EXPECT_EQ(read_all(*source).size(), 12u);
+  ASSERT_EQ(source->info().notes.size(), 1u);
+  for (const char* part : {"frame-2", "6 x 4", "3 x 2"}) EXPECT_NE(source->info().notes[0].find(part), std::string::npos) << source->info().notes[0];
+}
+
+TEST(Depth, IntrinsicsOfAnotherSizeAreNoted) {
+  const ScratchFolder folder;
+  write_file(folder / "camera-intrinsics.txt", kIntrinsics);
+  write_frame(folder, "frame-1", kPose, png16(30, 20, 1000));
+  const auto source = open_points(folder.path);
+  read_all(*source);
+  ASSERT_EQ(source->info().notes.size(), 1u);
+  EXPECT_NE(source->info().notes[0].find("principal point"), std::string::npos);
+}
+
 TEST(Depth, NothingUsableIsAnError) {
   const ScratchFolder folder;
   write_frame(folder, "frame-0", kPose, png16(2, 2, 1000));
@@ -73,7 +96,7 @@ TEST(Depth, NothingUsableIsAnError) {
   write_file(folder / "camera-intrinsics.txt", kIntrinsics);
   expect_error([&] { open_points(folder.path); }, {"frames", "frame-*.depth.png"});
   write_frame(folder, "frame-1", kPose, "no image");
-  expect_error([&] { read_all(*open_points(folder.path)); }, {"frames"});
+  expect_error([&] { read_all(*open_points(folder.path)); }, {"frames", "none usable", "frame-1.depth.png"});
   ReadOptions options;
   options.depth_range = {2, 1};
   expect_error([&] { open_points(folder.path, options); }, {"depth_range"});
@@ -110,6 +133,40 @@ TEST(Image, SaysThatThinLinesMayHaveGaps) {
   ASSERT_EQ(notes_of(0, 200).size(), 2u);  // half as many grey pixels as dark ones
   EXPECT_NE(notes_of(0, 200)[1].find("--threshold 0.6"), std::string::npos);
   expect_read_error(png8({"   "}), "bad.png", {"--threshold"});
+}
+
+std::string encoded(const cv::Mat& image) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", image, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+/// A sheet with a frame drawn on it.
+cv::Mat sheet() {
+  cv::Mat image(300, 400, CV_8U, cv::Scalar(255));
+  image(cv::Rect(80, 60, 240, 180)).setTo(0);
+  image(cv::Rect(84, 64, 232, 172)).setTo(255);
+  return image;
+}
+
+TEST(Image, LightLinesOnADarkGroundAreTheDrawing) {
+  const PointCloud drawn = read(encoded(sheet()), "a.png");
+  EXPECT_EQ(drawn.size(), 240u * 180u - 232u * 172u);
+  const auto source = open_points_in_memory(encoded(255 - sheet()), "a.png");
+  expect_same(read_all(*source), drawn);
+  EXPECT_NE(source->info().notes[1].find("light lines"), std::string::npos);
+}
+
+TEST(Image, BroadDarkBordersAreNoDrawing) {
+  cv::Mat scanned = sheet();
+  scanned.rowRange(0, 20).setTo(0);
+  scanned.colRange(370, 400).setTo(20);
+  const auto source = open_points_in_memory(encoded(scanned), "a.png");
+  expect_same(read_all(*source), read(encoded(sheet()), "a.png"));
+  EXPECT_NE(source->info().notes[1].find("border left out"), std::string::npos);
+  cv::Mat walls(300, 400, CV_8U, cv::Scalar(255));  // that run off the picture stay
+  walls.rowRange(100, 110).setTo(0);
+  EXPECT_EQ(read(encoded(walls), "a.png").size(), 4000u);
 }
 
 TEST(Image, FaultsNameFileAndField) {

@@ -73,7 +73,9 @@ TEST(Ptx, PosesColoursAndNoReturns) {
   EXPECT_EQ(cloud.positions[3], Vec3(10, 22, 30));
   EXPECT_EQ(cloud.colors[0], (std::array<std::uint8_t, 3>{255, 0, 9}));
   EXPECT_EQ(source->info().viewpoint, Vec3(1, 2, 3));
+  EXPECT_EQ(source->info().notes.size(), 1u);
   expect_same(read_all(*source), cloud);
+  EXPECT_EQ(source->info().notes.size(), 1u);
 }
 
 TEST(Ptx, FaultsNameFileAndField) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <array>
 #include <cmath>
 
 #include "io/samples.h"
@@ -74,6 +75,29 @@ TEST(Text, ANamedHeaderDecides) {
   EXPECT_EQ(read("//X Y Z Nx Ny Nz\n1 2 3 0 0 2\n", "a.asc").normals[0], Vec3f(0, 0, 2));
 }
 
+TEST(Text, NamesOfSurveyorsAndOtherProgramsCount) {
+  for (const char* header : {"N,E,Z", "Northing (m),Easting [m],Elev", "N,E,H", "Points:1,Points:0,Points:2", "pos_y,pos_x,pos_z", "Y Coordinate,X Coordinate,Z Coordinate",
+                             "cartesianY,cartesianX,cartesianZ", "y_coord,x_coord,z_coord", "Pos.Y,Pos.X,Pos.Z", "y,x,RL", "Hochwert,Rechtswert,H\u00f6he"})
+    EXPECT_EQ(read(std::string(header) + "\n2,1,3\n5,4,6\n", "a.csv").positions[1], Vec3(4, 5, 6)) << header;
+  EXPECT_EQ(read("Intensity,colorRed,colorGreen,colorBlue,X(m),Y(m),Z(m)\n9,10,20,30,1,2,3\n", "a.csv").colors[0], (std::array<std::uint8_t, 3>{10, 20, 30}));
+  EXPECT_NE(notes_of("y,x,RL\n2,1,3\n", "a.csv").find("\"RL\" read as z"), std::string::npos);
+  EXPECT_NE(notes_of("a,b,c\n2,1,3\n", "a.csv").find("names no x and y"), std::string::npos);
+  for (const char* drawing : {"x,y,intensity\n1,2,3\n", "x,y,u,v\n1,2,3,4\n", "x,y,d\n1,2,\n"})
+    EXPECT_TRUE(open_points_in_memory(drawing, "a.csv")->info().two_dimensional) << drawing;
+}
+
+TEST(Text, TitlesUnitsAndNumberedColumnsAreNoPoints) {
+  for (const char* s : {"Some scanner, version 3\nx,y,z\n1,2,3\n", "x,y,z\nm,m,m\n1,2,3\n", "% exported\n% x y z\n1 2 3\n", ",0,1,2\n0,1,2,3\n1,4,5,6\n2,1,1,1\n"})
+    EXPECT_EQ(read(s, "a.csv").positions[0], Vec3(1, 2, 3)) << s;
+  expect_read_error("one\ntwo\nthree\nfour\nfive\nsix\nseven\n1 2 3\n", "bad.txt", {"line 2", "two"});
+}
+
+TEST(Text, PlacesInAGridAndColoursAsSharesAreSeen) {
+  EXPECT_EQ(read("0 0 1.5 2.5 3.5 9 8 7\n0 1 1.5 2.5 3.75 9 8 7\n1 0 2.5 2.5 3.5 9 8 7\n", "a.xyz").positions[1], Vec3(1.5, 2.5, 3.75));
+  EXPECT_EQ(read("0 0 1.5 0 0 1\n1 0 1.5 0 0.6 0.8\n1 1 1.5 0 0.8 0.6\n", "a.xyz").positions[2], Vec3(1, 1, 1.5));  // a grid on the ground, with normals
+  EXPECT_EQ(read("1 2 3 0.2 0.4 1\n4 5 6 0 0 0\n", "a.xyzrgb").colors[0], (std::array<std::uint8_t, 3>{51, 102, 255}));
+}
+
 TEST(Text, TwoColumnsAreADrawing) {
   const auto source = open_points_in_memory("1 2\n3 4\n", "a.txt");
   EXPECT_TRUE(source->info().two_dimensional);
@@ -125,6 +149,20 @@ TEST(Text, FaultsNameFileAndLine) {
   bad(std::string("\1\2\3\4\0\0\5", 7), {"line 1"});
   bad(std::string(3000000, '1'), {"line 1"});
   expect_read_error(std::string("\1\2\3\4\0\0\5", 7), "noending", {"content", "no format known"});
+}
+
+TEST(Sniff, ForeignFormatsAreNamedWithTheWayOut) {
+  for (const auto& [bytes, name, way_out] : std::vector<std::array<std::string, 3>>{{"%PDF-1.4\n1 0 obj\n", "a PDF", "PNG"},
+                                                                                   {std::string("II*\0\x08\0\0\0", 8), "a TIFF image", "PNG"},
+                                                                                   {std::string("BM\x36\0\0\0", 6), "a BMP image", "PNG"},
+                                                                                   {"RIFF1234WEBPVP8 ", "a WebP image", "PNG"},
+                                                                                   {"# vtk DataFile Version 3.0\npoints\nASCII\n", "a VTK file", "PLY"},
+                                                                                   {"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", "a DXF drawing", "OBJ"},
+                                                                                   {"<?xml version=\"1.0\"?><COLLADA/>", "an XML file", "OBJ"},
+                                                                                   {"{\"asset\": {}}", "a JSON file", "OBJ"},
+                                                                                   {"ISO-10303-21;\nHEADER;\n", "a STEP or IFC model", "STL"},
+                                                                                   {std::string("PK\3\4\0\0", 6), "a ZIP archive", "unpacked"}})
+    for (const char* file : {"bad", "bad.txt"}) expect_read_error(bytes, file, {"content", name, way_out});
 }
 
 }  // namespace

@@ -171,6 +171,18 @@ TEST(BadInput, LostDigitsAreSaid) {
   }
 }
 
+/// "5.0000e+06", as some programs write map coordinates: said by axis. Grids of points near the origin are nothing special.
+TEST(BadInput, FewDigitsAreSaid) {
+  for (const double away : {5e6, 0.0}) {
+    PointCloud cloud = box();
+    for (Vec3& p : cloud.positions) p = Vec3(p.x() + away, std::round(p.y() + away), p.z());
+    const std::vector<std::string> warnings = test::run(cloud, test::with_scale(0.08)).result.summary.warnings;
+    const bool said = std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.starts_with("y comes in steps of 1 m only"); });
+    EXPECT_EQ(said, away > 0.0);
+    EXPECT_FALSE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.starts_with("x comes") || w.starts_with("z comes"); }));
+  }
+}
+
 /// Two of three points in the air: said, if the scale is an estimate. Points that are there many times count once.
 TEST(BadInput, FewPointsOnPlanesAreSaid) {
   PointCloud cloud = box();
