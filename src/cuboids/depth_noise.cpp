@@ -82,26 +82,37 @@ std::vector<double> each(const std::vector<Patch>& patches, double Patch::* valu
   return values;
 }
 
-}  // namespace
+struct MeasuredNoise {
+  double value = kKinect;
+  double scatter = 0;  ///< m at 1 m, of flat patches without correlation, however large; 0 = not known
+};
 
-double depth_noise(const RgbdFrame& frame, const Options& options) {
-  if (options.noise) return *options.noise;
+MeasuredNoise measure_noise(const RgbdFrame& frame) {
   std::vector<Patch> patches;
   for (int top = 0; !frame.is_fused() && top + kPatch <= frame.camera.height; top += kPatch)
     for (int left = 0; left + kPatch <= frame.camera.width; left += kPatch)
       if (const auto patch = patch_at(frame, left, top)) patches.push_back(*patch);
-  if (patches.size() < kFewestPatches) return kKinect;
+  if (patches.size() < kFewestPatches) return {};
   const double flattest = quantile(each(patches, &Patch::noise), kFlatShare), step = std::min(median(each(patches, &Patch::step)), kCoarsest);
   std::erase_if(patches, [&](const Patch& patch) { return patch.noise > flattest; });
-  const bool smoothed = flattest > kExact && median(each(patches, &Patch::correlation)) > kSmooth;
-  return std::max(smoothed ? kKinect : std::clamp(kWarps * flattest, kBest, kKinect), step);
+  if (flattest > kExact && median(each(patches, &Patch::correlation)) > kSmooth) return {std::max(kKinect, step)};
+  return {std::max(std::clamp(kWarps * flattest, kBest, kKinect), step), flattest};
 }
 
+}  // namespace
+
+double depth_noise(const RgbdFrame& frame, const Options& options) { return options.noise ? *options.noise : measure_noise(frame).value; }
+
 Options with_depth_noise(const RgbdFrame& frame, Options options, Context& context) {
-  const bool measured = !options.noise;
-  options.noise = depth_noise(frame, options);
-  if (measured && *options.noise > kKinect)
-    context.warn(fmt::format("the depth comes in coarse steps, as wide as noise of {:.1f} mm at 1 m: boxes are no more exact", 1000.0 * *options.noise));
+  constexpr double kClearly = 1.3;
+  if (options.noise) return options;
+  const MeasuredNoise measured = measure_noise(frame);
+  options.noise = measured.value;
+  if (measured.value > kKinect)
+    context.warn(fmt::format("the depth comes in coarse steps, as wide as noise of {:.1f} mm at 1 m: boxes are no more exact", 1000.0 * measured.value));
+  else if (measured.scatter > kClearly * kKinect)
+    context.warn(fmt::format("the depth scatters by {0:.1f} mm at 1 m, more than what boxes are told apart with: far walls may be cut into boxes (--noise {1:.4f} keeps them whole, and loses "
+                             "small boxes)", 1000.0 * measured.scatter, measured.scatter));
   return options;
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "unseen/core/quantile.h"
@@ -27,6 +28,19 @@ std::vector<int> points_of(const Scan& scan, const std::vector<int>& faces) {
   return points;
 }
 
+double tilt_error(const Scan& scan, std::span<const int> points) {
+  constexpr double kIndependent = 0.1;       // of the points: noise of neighbours is alike
+  constexpr double kSystematic = 0.001;      // m, across the points: warps of the sensor
+  const double count = static_cast<double>(points.size());
+  Vec3 mean = Vec3::Zero();
+  double sigma = 0;
+  for (const int i : points) mean += scan.points[i] / count, sigma += scan.graph.sigma[i] / count;
+  Mat3 second = Mat3::Zero();
+  for (const int i : points) second += (scan.points[i] - mean) * (scan.points[i] - mean).transpose() / count;
+  const double spread = std::sqrt(std::max(Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvalues()[1], 1e-12));
+  return std::hypot(sigma / (spread * std::sqrt(kIndependent * count)), kSystematic / spread);
+}
+
 std::vector<Level> coplanar(const Scan& scan, std::vector<int> faces) {
   std::stable_sort(faces.begin(), faces.end(),
                    [&](int a, int b) { return scan.faces.faces[a].area > scan.faces.faces[b].area; });
@@ -43,6 +57,21 @@ std::vector<Level> coplanar(const Scan& scan, std::vector<int> faces) {
   }
   for (Level& level : levels) level.plane = fit_support(scan, points_of(scan, level.faces));
   return levels;
+}
+
+void level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level& ground) {
+  constexpr double kVague = 0.015, kSurer = 0.5;  // rad; of the ground's error
+  const std::vector<int> points = points_of(scan, ground.faces);
+  double least = tilt_error(scan, points);
+  if (least < kVague) return;
+  least *= kSurer;
+  const Level* surest = nullptr;
+  for (const Level& level : levels)
+    if (const double error = tilt_error(scan, points_of(scan, level.faces)); error < least) least = error, surest = &level;
+  if (surest == nullptr) return;
+  std::vector<double> heights;
+  for (const int i : points) heights.push_back(surest->plane.normal.dot(scan.points[i]));
+  ground.plane = {surest->plane.normal, median(std::move(heights))};
 }
 
 Plane fit_support(const Scan& scan, std::span<const int> points) {

@@ -33,8 +33,14 @@ struct Level {
 /// Indices of all points of some faces.
 std::vector<int> points_of(const Scan& scan, const std::vector<int>& faces);
 
+/// rad: standard error of the normal of a plane through points, in the direction in which they tell least of it.
+double tilt_error(const Scan& scan, std::span<const int> points);
+
 /// Faces of one plane, largest first; each face joins the first plane that it lies on.
 std::vector<Level> coplanar(const Scan& scan, std::vector<int> faces);
+
+/// A ground of which no more than a strip is seen, as behind a table, tells little of up: then the level does whose normal is surest.
+void level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level& ground);
 
 /// Plane through points, robust. For an image the linear regression of 1/z on the ray, whose noise is the same
 /// everywhere; for a cloud weighted total least squares. The normal points to the viewpoint.

@@ -13,6 +13,8 @@ constexpr double kFitOpen = 1.5;     // tolerances
 constexpr int kMaxSamples = 14;      // along one side of a face
 constexpr int kEdgeSamples = 9;      // along an edge
 constexpr int kFewestEdgeSamples = 3;  // that show something: depth is missing along edges
+constexpr double kFreeRow = 0.6;       // of a row's samples that show something,
+constexpr double kFewestRowSamples = 5;  // of which it has so many
 constexpr double kFarthest = 3.0;    // m: no face moves farther than this
 
 /// Places along one side of a box, away from its edges, where flying pixels are.
@@ -24,18 +26,28 @@ std::vector<double> places(double half, double inset, double step) {
   return out;
 }
 
-/// Share of the samples of a face, moved outward by `distance`, that the view proves free.
-double free_share(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
+/// Whether the view proves a face free that is moved outward by `distance`: many of its samples, or most of a row of them across it, as of what lies under
+/// the near edge of a table. The outermost rows are left to the fit.
+bool is_free(const DepthView& view, const OrientedBox& box, int face, double distance, double inset) {
   const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
   const Vec3 middle = box.center + face_normal(box, face) * (box.half_size[axis] + distance);
   const double step = std::max(2.0 * view.spacing(middle), inset);
-  int free = 0, all = 0;
-  for (const double x : places(box.half_size[u], inset, step))
-    for (const double y : places(box.half_size[v], inset, step)) {
-      ++all;
-      free += view.at(middle + x * box.axes.col(u) + y * box.axes.col(v)) == DepthView::Space::free;
+  const std::vector<double> across = places(box.half_size[u], inset, step), along = places(box.half_size[v], inset, step);
+  const auto rows = static_cast<Eigen::Index>(across.size()), columns = static_cast<Eigen::Index>(along.size());
+  Eigen::ArrayXXd free(rows, columns), known(rows, columns);
+  for (Eigen::Index i = 0; i < rows; ++i)
+    for (Eigen::Index j = 0; j < columns; ++j) {
+      const DepthView::Space space = view.at(middle + across[static_cast<std::size_t>(i)] * box.axes.col(u) + along[static_cast<std::size_t>(j)] * box.axes.col(v));
+      free(i, j) = space == DepthView::Space::free;
+      known(i, j) = space != DepthView::Space::missing && space != DepthView::Space::outside;
     }
-  return static_cast<double>(free) / all;
+  if (free.mean() > kFreeShare) return true;
+  const auto clearly = [](double some, double all) { return all >= kFewestRowSamples && some > kFreeRow * all; };
+  for (Eigen::Index i = 1; i + 1 < rows; ++i)
+    if (clearly(free.row(i).sum(), known.row(i).sum())) return true;
+  for (Eigen::Index j = 1; j + 1 < columns; ++j)
+    if (clearly(free.col(j).sum(), known.col(j).sum())) return true;
+  return false;
 }
 
 }  // namespace
@@ -64,7 +76,7 @@ static Extension room_of(const DepthView& view, const Cuboid& cuboid, double tol
     const bool sideways = std::abs(face_normal(box, face).z()) < kUprightFace;
     if (sideways && cuboid.by_symmetry) continue;
     const auto is_open = [&](double at) {
-      return free_share(view, box, face, at, tolerance) <= kFreeShare && (!sideways || is_covered(view, box, face, at, tolerance));
+      return !is_free(view, box, face, at, tolerance) && (!sideways || is_covered(view, box, face, at, tolerance));
     };
     // A face that is seen stops at the first step: it may still move by what the fit leaves open.
     double at = tolerance;

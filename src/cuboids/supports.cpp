@@ -184,6 +184,7 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   std::stable_sort(levels.begin(), levels.end(), [&](const Level& a, const Level& b) { return height(a) < height(b); });
   const auto ground = std::find_if(levels.begin(), levels.end(),
                                    [&](const Level& level) { return level.carried >= least; });
+  level_with_surest(scan, levels, *ground);
   found.up = ground->plane.normal;
   // A surface that something was seen below ends where it was seen to end; another one goes on.
   const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) {

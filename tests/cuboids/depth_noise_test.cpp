@@ -23,6 +23,21 @@ TEST(DepthNoise, OfABetterSensorIsMeasured) {
   EXPECT_EQ(depth_noise(render(scene), given), 0.01);
 }
 
+TEST(DepthNoise, ThatIsMoreThanBoxesAreToldApartWithIsSaid) {
+  Scene scene;
+  scene.boxes = {upright(-0.15, 0.9, 0, {0.2, 0.15, 0.1}, 20)};
+  for (const double noise : {0.0015, 0.0027}) {
+    scene.noise = noise;
+    Context context;
+    EXPECT_EQ(*with_depth_noise(render(scene), {}, context).noise, 0.0015);
+    const std::vector<std::string> warnings = context.take_warnings();
+    ASSERT_EQ(warnings.size(), noise > 0.002 ? 1u : 0u);
+    if (!warnings.empty()) {
+      EXPECT_NE(warnings[0].find("scatters by 2."), std::string::npos) << warnings[0];
+    }
+  }
+}
+
 TEST(DepthNoise, OfNextToNothingIsThatOfAKinect) {
   RgbdFrame frame = render(Scene());
   for (std::size_t i = 0; i < frame.depth.size(); ++i)

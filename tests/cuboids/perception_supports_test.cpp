@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include "cuboids/hypotheses.h"
 #include "cuboids/interface.h"
+#include "cuboids/levels.h"
 #include "perception_scenes.h"
 #include "unseen/core/error.h"
 #include "unseen/cuboids/cuboids.h"
@@ -102,6 +104,69 @@ TEST(Up, StraightAboveIsThatOfTheFloorNotOfASideOfABox) {  // to which the floor
   scene.boxes = {upright(-0.4, 0.2, 0, {0.4, 0.3, 0.2}, 20), upright(0.3, 0.3, 0, {0.3, 0.3, 0.4}, -10), upright(0.1, -0.3, 0, {0.5, 0.25, 0.15}, 0),
                  upright(0.15, -0.3, 0.15, {0.2, 0.15, 0.1}, 30)};
   EXPECT_LT(up_of(scene).error, 1.0);
+}
+
+/// Points on a grid of a plane z = slope · y, as a face.
+struct Flat {
+  std::vector<Vec3> points;
+  PointGraph graph;
+  Faces faces;
+  std::vector<Level> levels;
+
+  void add(double from, double depth, double height, double slope) {
+    Face& face = faces.faces.emplace_back();
+    for (int i = 0; i < 40; ++i)
+      for (int k = 0; k < 20; ++k) {
+        const double y = from + depth * k / 19.0;
+        face.points.push_back(static_cast<int>(points.size()));
+        points.emplace_back(i / 39.0, y, height + slope * (y - from - 0.5 * depth));
+        graph.sigma.push_back(0.005);
+      }
+    Level& level = levels.emplace_back();
+    level.faces = {static_cast<int>(faces.faces.size()) - 1};
+    level.plane = Plane{Vec3(0, -slope, 1).normalized(), 0};
+    level.plane.offset = level.plane.normal.dot(Vec3(0, from + 0.5 * depth, height));
+  }
+  Scan scan() const { return {points, graph, faces, true}; }
+};
+
+TEST(Up, IsThatOfATableWhereButAStripOfFloorIsSeen) {
+  Flat flat;
+  flat.add(0.5, 1.0, 0.75, 0.0);
+  flat.add(3.0, 0.08, 0.0, 0.1);  // 6° wrong
+  EXPECT_LT(tilt_error(flat.scan(), flat.faces.faces[0].points), 0.006);
+  EXPECT_GT(tilt_error(flat.scan(), flat.faces.faces[1].points), 0.03);
+  level_with_surest(flat.scan(), flat.levels, flat.levels[1]);
+  EXPECT_LT(line_angle(flat.levels[1].plane.normal, Vec3::UnitZ()), 1e-9);
+  EXPECT_NEAR(flat.levels[1].plane.offset, 0.0, 1e-3);
+}
+
+TEST(Up, IsThatOfTheFloorWhereMuchOfItIsSeen) {
+  Flat flat;
+  flat.add(0.5, 1.0, 0.75, 0.0);
+  flat.add(2.0, 0.8, 0.0, 0.01);
+  const Plane as_seen = flat.levels[1].plane;
+  level_with_surest(flat.scan(), flat.levels, flat.levels[1]);
+  EXPECT_EQ(flat.levels[1].plane.normal, as_seen.normal);
+}
+
+/// What is seen to be free under the near edge of a table top is no room for it to grow into.
+TEST(Rooms, UnderTheEdgeOfATableAreNone) {
+  Scene scene;
+  scene.height = 1.3;
+  scene.pitch = radians(17.0);
+  scene.noise = 0.001;
+  scene.boxes = {upright(0, 1.0, 0.7, {2.4, 0.6, 0.03}, 0)};  // half of it in the picture, and little below it
+  const RgbdFrame frame = render(scene);
+  const DepthView view(frame, camera_of(scene), scene.noise);
+  Cuboid top;
+  top.initial = scene.boxes[0];
+  const OrientedBox& box = top.initial;
+  const int below = face_normal(box, 4).z() < 0.0 ? 4 : 5;
+  EXPECT_LT(find_rooms(view, {top}, {0.01})[0][below], 0.2);
+  scene.boxes[0] = upright(0, 1.0, 0, {2.4, 0.6, 0.73}, 0);  // a chest, of which the front is seen
+  const DepthView closed(render(scene), camera_of(scene), scene.noise);
+  EXPECT_GT(find_rooms(closed, {top}, {0.01})[0][below], 0.6);
 }
 
 TEST(Up, ThatNoPlaneIsOrthogonalToGivesWayToThatOfARamp) {
