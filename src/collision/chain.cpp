@@ -10,6 +10,7 @@
 #include "collision/arcs.h"
 #include "collision/chain_search.h"
 #include "collision/meetings.h"
+#include "collision/one_flight.h"
 #include "collision/spans.h"
 #include "collision/time_gaps.h"
 
@@ -206,7 +207,11 @@ Tracks with_returns(const Shot& shot, const ShotCamera& camera, const Flown& flo
       for (const FlightSpan& span : parted->spans) tracks.spans.push_back({span.body, span.begin + offset, span.end + offset});
       for (const Tracks::Meeting& m : parted->meetings) tracks.meetings.push_back({m.time, {m.before[0] + spans}, {m.after[0] + spans}});
     } else {
-      for (std::size_t i = first; i <= last; ++i) add_span(tracks, body, flown.points(i, i), fps);
+      for (std::size_t i = first, end; i <= last; i = end) {  // what the picture's parabolas part may be one flight in space
+        end = i + 1;
+        while (end <= last && is_one_flight(flown.points(i, end), std::max(noise, flown.tracks.noise))) ++end;
+        add_span(tracks, body, flown.points(i, end - 1), fps);
+      }
     }
     const auto next = static_cast<int>(tracks.spans.size());
     if (!ends) tracks.meetings.push_back({flown.tracks.meetings[meeting].time, {next - 1}, {next}});

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kRidge = 1e-4;  // per m/s: keeps a velocity that nothing was seen of small
 
-constexpr int kAll = LinearFlight::kUnknowns;
-using Row = Eigen::Matrix<double, 1, kAll>;  // P, V before, V after, delay
-using Column = Eigen::Matrix<double, kAll, 1>;
+constexpr int kUnknownsOfFlights = LinearFlight::kUnknowns;
+using Row = Eigen::Matrix<double, 1, kUnknownsOfFlights>;  // P, V before, V after, delay
+using Column = Eigen::Matrix<double, kUnknownsOfFlights, 1>;
 
 struct System {
-  Eigen::Matrix<double, kAll, kAll> normal = Eigen::Matrix<double, kAll, kAll>::Zero();
+  Eigen::Matrix<double, kUnknownsOfFlights, kUnknownsOfFlights> normal = Eigen::Matrix<double, kUnknownsOfFlights, kUnknownsOfFlights>::Zero();
   Column right = Column::Zero();
   void add(const Row& row, double value, double weight) {
     normal += weight * row.transpose() * row;
@@ -35,7 +35,7 @@ Row coordinate(int axis, double tau, bool after, const Column& near) {
   const int velocity = 3 + axis + (after ? 3 : 0);
   row[axis] = 1.0;
   row[velocity] = tau;
-  row[kAll - 1] = -near[velocity];
+  row[kUnknownsOfFlights - 1] = -near[velocity];
   return row;
 }
 
@@ -84,9 +84,9 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
     for (int i = 3; i < 9; ++i) system.normal(i, i) += kRidge * kRidge;
     if (problem.planar)
       for (const int i : {5, 8}) system.normal(i, i) += 1e6;
-    const Eigen::LDLT<Eigen::Matrix<double, kAll - 1, kAll - 1>> solver(system.normal.topLeftCorner<kAll - 1, kAll - 1>());  // at the time given
+    const Eigen::LDLT<Eigen::Matrix<double, kUnknownsOfFlights - 1, kUnknownsOfFlights - 1>> solver(system.normal.topLeftCorner<kUnknownsOfFlights - 1, kUnknownsOfFlights - 1>());  // at the time given
     if (!seen || solver.info() != Eigen::Success) return std::nullopt;
-    solution.head<kAll - 1>() = solver.solve(system.right.head<kAll - 1>());
+    solution.head<kUnknownsOfFlights - 1>() = solver.solve(system.right.head<kUnknownsOfFlights - 1>());
     if (!solution.allFinite()) return std::nullopt;
   }
   if (solution[2] < 0.01) return std::nullopt;
