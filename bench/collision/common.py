@@ -88,7 +88,7 @@ def scores(code, seconds, result, c_true, m_true):
     others = [other["restitution"] for other in result["ambiguous"] if other["restitution"] is not None]
     row["ambiguous_holds"] = int(any(abs(other - c_true) < 0.1 for other in others)) if c_true is not None else ""
     row["fits"] = int(result["fits"])
-    row["why"] = "" if c else "; ".join(result["summary"]["warnings"])
+    row["why"] = "" if c else "; ".join(warning.removeprefix(result["input"]["path"] + ": ") for warning in result["summary"]["warnings"])
     if result["impacts"]:
         value = result["impacts"][0]["restitution"]["value"]  # also of a run that stands by no value
         row |= {"c_impact": number(value), "c_impact_error": "" if c_true is None else number(abs(value - c_true))}
