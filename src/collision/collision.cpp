@@ -47,6 +47,15 @@ void warn_of_unused(const Shot& shot, Context& context) {
       context.warn(fmt::format("{}: orientations: those of {} are not used, as a sphere looks alike however it is turned", shot.name, shot.bodies[o].name));
 }
 
+/// "ball in frames 2 to 25 and 40 to 61": where a body was seen to fly.
+std::string flights_of(const Shot& shot, const Tracks& tracks, int body) {
+  std::string text;
+  for (const FlightSpan& span : tracks.spans)
+    if (span.body == body && span.end > span.begin)
+      text += fmt::format("{} {} to {}", text.empty() ? " in frames" : " and", tracks.points[span.begin].frame, tracks.points[span.end - 1].frame);
+  return shot.bodies[body].name + (text.empty() ? " nowhere" : text);
+}
+
 /// Why no impact was found.
 std::string nothing_found(const Shot& shot, const Tracks& tracks) {
   if (tracks.spans.empty()) return "nothing that flies freely was found";
@@ -59,7 +68,9 @@ std::string nothing_found(const Shot& shot, const Tracks& tracks) {
   if (shot.gravity == 0.0 && !shot.metres_per_pixel && std::none_of(tracks.points.begin(), tracks.points.end(), [](const TrackPoint& p) { return p.diameter > 0.0; }))
     return "no collision found: without gravity nothing tells the scale: give sightings a \"radius\", or the shot \"metres_per_pixel\"";
   if (!tracks.meetings.empty() && shot.bodies[1].shape == Shape::fixed) return fmt::format("no bounce off {} was found that its flights explain", shot.bodies[1].name);
-  return "no collision found: the flights do not meet";
+  const bool two = shot.bodies[1].shape != Shape::fixed;
+  return fmt::format("no collision found: the flights do not meet (seen to fly: {}{}{})", flights_of(shot, tracks, 0), two ? ", " + flights_of(shot, tracks, 1) : "",
+                     shot.video.empty() ? "" : "; in a flight a body's outline is seen by itself");
 }
 
 /// What the film, or the sightings in its place, show.

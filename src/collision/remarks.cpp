@@ -23,10 +23,9 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
     if (ratios.empty()) continue;
     const double ratio = median(std::move(ratios));
     if (is_another_scale(impacts.front().solution.problem.solids[static_cast<std::size_t>(o)], ratio))
-      context.warn(fmt::format("{}: the distance by its size is {:.3g} times that by gravity: its size is given {:.0f} % too {}, or the frame rate {:.0f} % too {}{}",
-                               shot.bodies[o].name, ratio, 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "large" : "small",
-                               100.0 * std::abs(std::sqrt(ratio) - 1.0), ratio > 1.0 ? "high" : "low",
-                               ratio > 1.0 && !shot.video.empty() ? ", or only a part of it tells from the background" : ""));
+      context.warn(fmt::format("{}: the distance by its size is {:.3g} times that by gravity: {}its size is given {:.0f} % too {}, or the frame rate {:.0f} % too {}",
+                               shot.bodies[o].name, ratio, ratio > 1.0 && !shot.video.empty() ? "only a part of it tells from the background, or " : "", 100.0 * std::abs(ratio - 1.0), ratio > 1.0 ? "large" : "small",
+                               100.0 * std::abs(std::sqrt(ratio) - 1.0), ratio > 1.0 ? "high" : "low"));
   }
 }
 

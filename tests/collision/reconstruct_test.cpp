@@ -111,6 +111,22 @@ TEST(Reconstruct, SaysThatAFlightHasNoCollision) {
   EXPECT_EQ(r.summary.status, Status::infeasible);
 }
 
+TEST(Reconstruct, SaysWhereBodiesThatDoNotMeetWereSeenToFly) {
+  Shot shot = bouncing_ball(0.7, 0);
+  shot.bodies[1] = shot.bodies[0];
+  shot.bodies[1].name = "other";
+  for (int f = 5; f < 60; ++f) {
+    const double t = f / 60.0 - 0.4, y = 4.905 * t * t;
+    shot.observations.push_back({f, {320 + 267 * 1.2 * t, 140 + 267 * y}, 8.0, 0});
+    if (f > 20) shot.observations.push_back({f, {320 - 267 * 0.9 * t, 60 + 267 * y}, 8.0, 1});
+  }
+  Context context;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  EXPECT_FALSE(r.restitution);
+  const std::string& said = r.summary.warnings.back();
+  for (const char* part : {"do not meet", "ball in frames 5 to 59", "other in frames 21 to 59"}) EXPECT_NE(said.find(part), std::string::npos) << said;
+}
+
 TEST(Reconstruct, WarnsWhereSizeAndGravityDisagree) {
   Shot shot = bouncing_ball(0.7);
   shot.fps = 48;  // the file's rate is a lie
@@ -207,7 +223,9 @@ TEST(Reconstruct, TellsTheTimesOfFramesThatComeUnevenly) {
   EXPECT_NEAR(r.impacts[0].time, std::sqrt(2.0 * 0.8 / 9.81), 0.005);
   EXPECT_NEAR(r.impacts[0].frame, std::sqrt(2.0 * 0.8 / 9.81) * 60 + 8, 0.3);
   for (const FramePose& f : r.frames)
-    if (f.frame <= 10 || f.frame > 18) EXPECT_NEAR(f.time, (f.frame > 10 ? f.frame - 8 : f.frame) / 60.0, 1e-9) << f.frame;
+    if (f.frame <= 10 || f.frame > 18) {
+      EXPECT_NEAR(f.time, (f.frame > 10 ? f.frame - 8 : f.frame) / 60.0, 1e-9) << f.frame;
+    }
 }
 
 TEST(Reconstruct, ADownThatPointsUpIsNoFit) {
