@@ -49,17 +49,20 @@ bool is_inverted(const cv::Mat& grey, double threshold) {
 /// they are. Walls are narrower.
 cv::Mat surroundings(const cv::Mat& dark) {
   const int broad = std::max(kLeastBroad, static_cast<int>(kBroad * std::min(dark.rows, dark.cols)));
-  cv::Mat framed, areas, labels;
+  cv::Mat outside = cv::Mat::zeros(dark.size(), CV_8U);
+  int at_border = 0;
+  for (const cv::Mat& side : {dark.row(0), dark.row(dark.rows - 1), dark.col(0), dark.col(dark.cols - 1)}) at_border += cv::countNonZero(side);
+  if (at_border < broad) return outside;
+  cv::Mat framed, areas, labels, stats, centers;
   cv::copyMakeBorder(dark, framed, broad, broad, broad, broad, cv::BORDER_REPLICATE);  // what leaves the picture goes on
   cv::morphologyEx(framed, areas, cv::MORPH_OPEN, cv::Mat::ones(broad, broad, CV_8U));
-  areas = areas(cv::Rect(broad, broad, dark.cols, dark.rows)).clone();
-  cv::Mat stats, centers;
-  const int count = cv::connectedComponentsWithStats(areas, labels, stats, centers);
-  cv::Mat outside = cv::Mat::zeros(dark.size(), CV_8U);
+  const int count = cv::connectedComponentsWithStats(areas(cv::Rect(broad, broad, dark.cols, dark.rows)), labels, stats, centers);
+  std::vector<std::uint8_t> mark(static_cast<std::size_t>(count), 0);
   for (int k = 1; k < count; ++k) {
     const cv::Rect box(stats.at<int>(k, cv::CC_STAT_LEFT), stats.at<int>(k, cv::CC_STAT_TOP), stats.at<int>(k, cv::CC_STAT_WIDTH), stats.at<int>(k, cv::CC_STAT_HEIGHT));
-    if (box.x == 0 || box.y == 0 || box.br().x == dark.cols || box.br().y == dark.rows) outside.setTo(255, labels == k);
+    if (box.x == 0 || box.y == 0 || box.br().x == dark.cols || box.br().y == dark.rows) mark[static_cast<std::size_t>(k)] = 255;
   }
+  std::transform(labels.begin<int>(), labels.end<int>(), outside.begin<std::uint8_t>(), [&](int label) { return mark[static_cast<std::size_t>(label)]; });
   const double share = static_cast<double>(cv::countNonZero(outside)) / std::max(1, cv::countNonZero(dark));
   if (share < kMuch || share > kAll) return cv::Mat::zeros(dark.size(), CV_8U);
   cv::dilate(outside, outside, cv::Mat::ones(5, 5, CV_8U));  // with its blurred rim
