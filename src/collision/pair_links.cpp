@@ -25,6 +25,8 @@ constexpr double kMisfit = 2.0;         // ½ χ² a sighting about flights in s
 constexpr double kPush = 0.12;          // of the faster velocity, by which both bodies' change if only flights in space tell of an impact
 constexpr double kWorth = 40.0;         // of it in the score
 constexpr double kTouch = 0.85;         // of the sum of the diameters that the centres may be apart at the impact
+constexpr double kApart = 0.75;         // of that sum: where regions that far off are one body alone
+constexpr std::ptrdiff_t kFewestAlone = 4;  // points of a flight at which the body is seen by itself
 constexpr double kUnlike = 15.9;        // σ² between the looks before and after: bodies turn, and show other sides
 constexpr double kOpposed = -0.5;       // cosine between the two changes of velocity: momentum goes from one to the other
 constexpr double kSizesDiffer = 0.12;   // of the logarithm of the size ratio
@@ -98,8 +100,13 @@ bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vect
 /// How far apart in time each link alone is nearest to closed.
 double time_between(const Link& a, const Link& b, double noise) { return std::abs(own_joint(a, noise).u - own_joint(b, noise).u); }
 
+/// Points of an arc that are one body alone.
+std::ptrdiff_t count_alone(const Arc& arc, const Link& other, const Candidates& candidates) {
+  return std::count_if(arc.points.begin(), arc.points.end(), [&](const Candidate& c) { return !is_both(c, other, candidates); });
+}
+
 /// Whether both links close at one time, by pushes that momentum allows. Sets the time and the score.
-bool agree(const std::vector<Arc>& arcs, double noise, Evidence evidence, Collision& c) {
+bool agree(const Candidates& candidates, const std::vector<Arc>& arcs, double noise, Evidence evidence, Collision& c) {
   c.u = common_time(c.a, c.b, noise);
   if (std::isnan(c.u)) return false;
   const Joint ja = joint_of(c.a, c.u, noise), jb = joint_of(c.b, c.u, noise);
@@ -108,7 +115,11 @@ bool agree(const std::vector<Arc>& arcs, double noise, Evidence evidence, Collis
   const double opposed = ja.change.dot(jb.change) / (ja.change.norm() * jb.change.norm());
   if (opposed > kOpposed) return false;
   c.score = -20.0 * opposed - (ja.apart + jb.apart) / noise - 4.0 * time_between(c.a, c.b, noise) - c.a.unlike - c.b.unlike;
-  for (const std::size_t k : c.arcs()) c.score += std::min<double>(30.0, static_cast<double>(arcs[k].points.size()));
+  for (const std::size_t k : c.arcs()) {
+    const std::ptrdiff_t alone = count_alone(arcs[k], k == c.a.before || k == c.a.after ? c.b : c.a, candidates);
+    if (alone < kFewestAlone) return false;
+    c.score += std::min<double>(30.0, static_cast<double>(alone));
+  }
   return true;
 }
 
@@ -146,7 +157,19 @@ double common_time(const Link& a, const Link& b, double noise) {
   });
 }
 
-std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camera, const std::vector<Arc>& arcs, double noise, double fps) {
+bool is_both(const Candidate& region, const Link& other, const Candidates& candidates) {
+  if (region.region < 0 || region.u <= other.end || region.u >= other.begin) return false;
+  const Vec2 before = other.curve_before.at(region.u), after = other.curve_after.at(region.u);
+  const auto off = [&](const Candidate& c) { return std::min((c.pixel - before).norm(), (c.pixel - after).norm()); };
+  if (off(region) > kApart * (region.diameter + other.diameter)) return false;
+  const auto& frame = candidates[static_cast<std::size_t>(region.frame)];
+  return std::none_of(frame.begin(), frame.end(), [&](const Candidate& c) {
+    return c.region != region.region && !c.shadow && c.diameter > 0.5 * other.diameter && off(c) < 0.5 * other.diameter;
+  });
+}
+
+std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, const std::vector<Arc>& arcs, double noise,
+                                       double fps) {
   std::vector<Collision> found;
   for (const Evidence evidence : {Evidence::picture, Evidence::space}) {
     const std::vector<Link> links = links_of(arcs, noise, (evidence == Evidence::picture ? kLongestGap : kFarthestGap) * fps);
@@ -155,7 +178,7 @@ std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camer
         const Link &a = links[i], &b = links[j];
         if (a.before == b.before || a.after == b.after || a.before == b.after || a.after == b.before) continue;
         Collision collision{a, b, 0.0, 0.0};
-        if (!agree(arcs, noise, evidence, collision)) continue;
+        if (!agree(candidates, arcs, noise, evidence, collision)) continue;
         const bool in_the_picture = evidence == Evidence::picture && meet_in_the_picture(collision, noise);
         const bool in_space = is_unseen(a, b) && settle_in_space(shot, camera, arcs, noise, fps, evidence, collision);
         if (in_the_picture || in_space) found.push_back(collision);

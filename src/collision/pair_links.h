@@ -33,8 +33,12 @@ Link link_of(const Arc& before, const Arc& after, double noise);
 /// The one time at which both links are nearest to closed; NaN if there is none that both allow.
 double common_time(const Link& a, const Link& b, double noise);
 
-/// All pairs of links that make a collision of two bodies, best first.
-std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camera, const std::vector<Arc>& arcs, double noise, double fps);
+/// Whether a region of a film is both bodies seen as one: it lies where the `other` one flies, which has no region of its own there.
+bool is_both(const Candidate& region, const Link& other, const Candidates& candidates);
+
+/// All pairs of links that make a collision of two bodies, best first. Arcs of `candidates`.
+std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, const std::vector<Arc>& arcs, double noise,
+                                       double fps);
 
 /// True if the first of the two is the second of the shot's bodies: by labels, by size, else as found.
 bool swapped(const Shot& shot, const std::vector<Candidate>& first, const std::vector<Candidate>& second);

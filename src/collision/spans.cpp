@@ -23,6 +23,8 @@ constexpr double kForeseen = 3.5;    // σ of a point at a flight's end
 constexpr double kOddSizeOfSpan = 0.15;    // off the flight's typical diameter: an impact's blur, a shadow, a part
 constexpr int kForeseeing = 7;       // points next to it that foresee it
 constexpr int kTrimmed = 12;         // points that may come off an end
+constexpr int kRested = 5;           // points beside a flight that lie at one place, as where the body is held,
+constexpr double kOnePlace = 1.5;    // noises about their mean
 constexpr double kWorstFit = 6.0;    // χ² a degree of freedom
 constexpr double kFlightModel = 0.003;     // of a flight's length: what a parabola leaves of drag and perspective
 
@@ -45,6 +47,20 @@ Curve fit_of(const std::vector<Candidate>& track, int begin, int end) {
   CurveSums sums(track[begin].u);
   for (int i = begin; i < end; ++i) sums.add(track[i].u, track[i].pixel);
   return sums.fit();
+}
+
+/// How many of at most `most` points from `first` on, by steps of ±1, are still where the body rested before.
+int still_resting(const std::vector<Candidate>& track, int first, int step, int most, double noise) {
+  const int far = first - kRested * step;
+  if (far < 0 || far >= static_cast<int>(track.size())) return 0;
+  Vec2 place = Vec2::Zero();
+  for (int i = far; i != first; i += step) place += track[i].pixel / kRested;
+  const auto rests = [&](int i) { return (track[i].pixel - place).norm() < kOnePlace * noise; };
+  for (int i = far; i != first; i += step)
+    if (!rests(i)) return 0;
+  int count = 0;
+  while (count < most && rests(first + count * step)) ++count;
+  return count;
 }
 
 }  // namespace
@@ -128,6 +144,8 @@ void trim(const std::vector<Candidate>& track, double noise, Stretch& flight) {
   const auto odd = [&](const Candidate& c) { return c.diameter > 0.0 && std::abs(c.diameter - typical) > kOddSizeOfSpan * typical; };
   while (end - begin > kFewestOfSpan && odd(track[begin]) && !odd(track[begin + 1])) ++begin;
   while (end - begin > kFewestOfSpan && odd(track[end - 1]) && !odd(track[end - 2])) --end;
+  begin += still_resting(track, begin, 1, end - begin - kFewestOfSpan, noise);
+  end -= still_resting(track, end - 1, -1, end - begin - kFewestOfSpan, noise);
   for (int i = begin; i < flight.begin + reach; ++i)  // the innermost one that surprises counts
     if (surprise(i + 1, std::min(end, i + 1 + kForeseeing), track[i]) > kForeseen) begin = i + 1;
   const int last = end;

@@ -23,17 +23,22 @@ constexpr double kOneFlight = 1.2;     // times the noise, about one parabola th
 constexpr double kOddSizeOfFlight = 0.03;      // share
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
+Arc arc_of(std::vector<Candidate> points) {
+  Arc arc{std::move(points), {}, 0.0};
+  CurveSums sums(arc.begin());
+  for (const Candidate& c : arc.points) sums.add(c.u, c.pixel);
+  arc.curve = sums.fit();
+  arc.noise = std::sqrt(arc.curve.squares / std::max(1.0, 2.0 * static_cast<double>(arc.points.size()) - 6.0));
+  return arc;
+}
+
 /// The arc with those points of another that are outside its time.
 Arc with(const Arc& arc, const Arc& other) {
-  Arc both = arc;
+  std::vector<Candidate> both = arc.points;
   for (const Candidate& c : other.points)
-    if (c.u < arc.begin() || c.u > arc.end()) both.points.push_back(c);
-  std::stable_sort(both.points.begin(), both.points.end(), [](const Candidate& a, const Candidate& b) { return a.u < b.u; });
-  CurveSums sums(both.begin());
-  for (const Candidate& c : both.points) sums.add(c.u, c.pixel);
-  both.curve = sums.fit();
-  both.noise = std::sqrt(both.curve.squares / std::max(1.0, 2.0 * static_cast<double>(both.points.size()) - 6.0));
-  return both;
+    if (c.u < arc.begin() || c.u > arc.end()) both.push_back(c);
+  std::stable_sort(both.begin(), both.end(), [](const Candidate& a, const Candidate& b) { return a.u < b.u; });
+  return arc_of(std::move(both));
 }
 
 /// How far, in σ, the nearer end of `other` is from where the arc leads; more than kGate if it cannot be the same flight.
@@ -127,10 +132,24 @@ Tracks without_collision(const Shot& shot, const std::vector<Arc>& arcs, double 
   return tracks;
 }
 
-Tracks with_collision(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, const std::vector<Collision>& found, double noise,
-                      double fps) {
+/// Takes what is both bodies seen as one out of candidates and arcs, and marks arcs that are little else.
+void drop_merged(const Collision& collision, Candidates& candidates, std::vector<Arc>& arcs, std::vector<char>& used) {
+  const Candidates all = candidates;
+  const auto merged = [&](const Candidate& c) { return is_both(c, collision.a, all) || is_both(c, collision.b, all); };
+  for (auto& frame : candidates) std::erase_if(frame, merged);
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    std::vector<Candidate> alone = arcs[i].points;
+    std::erase_if(alone, merged);
+    if (alone.size() == arcs[i].points.size()) continue;
+    used[i] = 2 * alone.size() < arcs[i].points.size();
+    if (alone.size() >= 3) arcs[i] = arc_of(std::move(alone));
+  }
+}
+
+Tracks with_collision(const Shot& shot, Candidates candidates, std::vector<Arc> arcs, const std::vector<Collision>& found, double noise, double fps) {
   const Collision& best = found.front();
   std::vector<char> used(arcs.size(), 0);
+  drop_merged(best, candidates, arcs, used);
   const std::vector<Arc> whole = continued(arcs, best, noise, used);
   std::vector<std::vector<Candidate>> flights;
   for (std::size_t i = 0; i < 4; ++i) flights.push_back(reassign(candidates, whole[i], best.u, i < 2, noise));
@@ -156,7 +175,7 @@ Tracks find_pair(const Shot& shot, const ShotCamera& camera, const Candidates& c
   const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
   std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
-  const std::vector<Collision> found = find_collisions(shot, camera, arcs, noise, fps);
+  const std::vector<Collision> found = find_collisions(shot, camera, candidates, arcs, noise, fps);
   if (found.empty()) return without_collision(shot, arcs, fps);
   return with_collision(shot, candidates, arcs, found, noise, fps);
 }

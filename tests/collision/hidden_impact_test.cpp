@@ -74,7 +74,7 @@ std::vector<Arc> hidden_arcs(double pushed, double impact, std::uint64_t seed, i
   return arcs;
 }
 
-std::vector<Collision> collisions_of(const std::vector<Arc>& arcs) { return find_collisions(pair_shot(0.08, 0.06), camera(), arcs, kWander, kFps); }
+std::vector<Collision> collisions_of(const std::vector<Arc>& arcs) { return find_collisions(pair_shot(0.08, 0.06), camera(), {}, arcs, kWander, kFps); }
 
 TEST(HiddenImpact, FlightsInSpaceTellOfAnImpactThatTheNoiseOfSilhouettesHides) {
   const std::vector<Arc> arcs = hidden_arcs(1.0, 60.0, 20, 30);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// What lies beside a flight and is none of it: outlines of both bodies as one, and a body that is held.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "collision/chain.h"
+#include "collision/pair_links.h"
+#include "collision/pair_scene.h"
+#include "collision/tracks.h"
+#include "collision/two_body.h"
+#include "unseen/core/random.h"
+
+namespace unseen::collision::test {
+namespace {
+
+constexpr double kMetre = 400.0, kGravity = 9.81 * kMetre / (kFps * kFps);  // px; px per frame²
+constexpr int kImpact = 40, kParted = 54, kFrames = 90;                       // frames
+
+struct Mover {
+  Vec2 place, before, after;  // px at the impact, px a frame
+  double diameter;            // px
+
+  Vec2 at(int frame) const {
+    const double t = frame - kImpact;
+    return place + t * (t < 0.0 ? before : after) + Vec2(0.0, 0.5 * kGravity * t * t);
+  }
+  double area() const { return 0.25 * kPi * diameter * diameter; }
+};
+
+const Mover kLarge = {{600, 300}, {4.0, -3.0}, {-1.5, -3.0}, 100.0}, kSmall = {{668, 310}, {-5.0, -2.0}, {1.5, -1.0}, 46.0};
+
+Candidate outline(int frame, int region, const Vec2& place, double diameter, const Vec3& color, Random& random) {
+  Candidate c;
+  c.frame = frame;
+  c.u = frame;
+  c.pixel = place + 0.2 * Vec2(random.normal(), random.normal());
+  c.diameter = diameter;
+  c.area = 0.25 * kPi * diameter * diameter;
+  c.colored = true;
+  c.color = color;
+  c.region = region;
+  return c;
+}
+
+/// Outlines of the two, one from shortly before the impact until they are apart again.
+Candidates merging(std::uint64_t seed) {
+  Random random(seed);
+  Candidates candidates(kFrames);
+  for (int k = 0; k < kFrames; ++k) {
+    if (k > kImpact - 3 && k < kParted) {
+      const double a = kLarge.area(), b = kSmall.area();
+      candidates[k] = {outline(k, 0, (a * kLarge.at(k) + b * kSmall.at(k)) / (a + b), 104.0, {105, 75, 60}, random)};
+    } else {
+      candidates[k] = {outline(k, 0, kLarge.at(k), kLarge.diameter, {100, 70, 50}, random), outline(k, 1, kSmall.at(k), kSmall.diameter, {150, 140, 170}, random)};
+    }
+  }
+  return candidates;
+}
+
+TEST(FlightEnds, OutlinesOfBothBodiesAsOneAreOfNoFlight) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Context context;
+    const Tracks tracks = find_pair(pair_shot(0.125, 0.058), camera(), merging(seed), kFps, 0.5, context);
+    ASSERT_EQ(tracks.meetings.size(), 1u) << seed;
+    EXPECT_NEAR(tracks.meetings[0].time * kFps, kImpact, 0.5) << seed;
+    for (const FlightSpan& span : tracks.spans) {
+      EXPECT_GE(span.end - span.begin, 30u) << seed;
+      for (std::size_t i = span.begin; i < span.end; ++i)
+        EXPECT_LT((tracks.points[i].pixel - (span.body == 0 ? kLarge : kSmall).at(tracks.points[i].frame)).norm(), 2.0) << seed << ", frame " << tracks.points[i].frame;
+    }
+  }
+}
+
+TEST(FlightEnds, AnOutlineBesideAnotherOrFarFromItIsOfOne) {
+  const Candidates candidates = merging(1);
+  std::vector<Candidate> before, after;
+  for (int k = 0; k < kFrames; ++k)
+    if (candidates[k].size() == 2) (k < kImpact ? before : after).push_back(candidates[k][1]);
+  const Link small = link_of({before, {}, 0.0}, {after, {}, 0.0}, 0.5);
+  EXPECT_TRUE(is_both(candidates[45][0], small, candidates));
+  EXPECT_FALSE(is_both(candidates[60][0], small, candidates));  // the small one is seen
+  Candidate far = candidates[45][0];
+  far.pixel.x() -= 200.0;
+  EXPECT_FALSE(is_both(far, small, candidates));
+  Candidates parted = candidates;  // by another outline where the small one should be
+  Random random(1);
+  parted[45].push_back(outline(45, 1, kSmall.at(45), kSmall.diameter, {150, 140, 170}, random));
+  EXPECT_FALSE(is_both(parted[45][0], small, parted));
+  Candidate told = candidates[45][0];
+  told.region = -1;  // a sighting that somebody gives is of one body
+  EXPECT_FALSE(is_both(told, small, candidates));
+}
+
+// A quarter of what a ball falls in four frames is less than the noise that its outline may have at most.
+TEST(FlightEnds, FramesInWhichABallIsHeldAreOfNoFlight) {
+  constexpr int kDropped = 30;
+  Shot shot;
+  shot.name = "shot";
+  shot.video = "film";
+  shot.bodies = {ball("ball", 0.03), {}};
+  shot.bodies[1].name = "floor";
+  shot.bodies[1].shape = Shape::fixed;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random(seed);
+    Candidates candidates(120);
+    for (int k = 0; k < 120; ++k) {
+      const double falls = std::min(std::max(0.0, k - kDropped - 0.4), 40.0), rises = std::max(0.0, k - kDropped - 40.4);
+      const double y = 0.5 * kGravity * falls * falls - 0.75 * kGravity * 40.0 * rises + 0.5 * kGravity * rises * rises;
+      candidates[k] = {outline(k, 0, {640.0, 100.0 + y}, 24.0, {200, 90, 40}, random)};
+    }
+    Context context;
+    const Tracks tracks = find_chain(shot, camera(), candidates, 0, kFps, 0.5, context);
+    ASSERT_EQ(tracks.meetings.size(), 1u) << seed;
+    EXPECT_GE(tracks.points.front().frame, kDropped - 2) << seed;
+    EXPECT_LE(tracks.points.front().frame, kDropped + 4) << seed;
+    EXPECT_EQ(tracks.points.back().frame, 119) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace unseen::collision::test
