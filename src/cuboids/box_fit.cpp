@@ -21,6 +21,8 @@ constexpr double kOfSide = 0.15;            // of a side's area: a smaller face 
 constexpr double kSliceQuantile = 0.9;
 constexpr double kStripStep = 3.0;          // spacings or noise, without a point of a strip
 constexpr std::size_t kStripPoints = 4;     // within such a step
+constexpr double kAsNear = 0.02;            // share of the points that lie on a box: one along other axes explains as much,
+constexpr double kAsTight = 1.3;            // if it is hardly larger
 
 /// Where the points end along axis k on the given side: each slice along axis m ends at its outermost points.
 double end_of(const Observation& seen, std::span<const int> points, const Mat3& axes, int k, int m, double sign) {
@@ -122,6 +124,22 @@ OrientedBox bound(const Observation& seen, const DepthView& view, std::span<cons
   box.center = axes * (0.5 * (low + high));
   box.half_size = 0.5 * (high - low);
   return box;
+}
+
+double share_on_surface(const Observation& seen, std::span<const int> points, const OrientedBox& box, double sigmas) {
+  std::size_t count = 0;
+  for (const int i : points) {
+    const Vec3 beyond = (box.axes.transpose() * (seen.points[i] - box.center)).cwiseAbs() - box.half_size;
+    count += std::abs(beyond.maxCoeff()) < sigmas * seen.graph.sigma[i];
+  }
+  return static_cast<double>(count) / static_cast<double>(points.size());
+}
+
+OrientedBox bound_along(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, const Mat3& own,
+                        const Mat3& whole, double voxel) {
+  const OrientedBox box = bound(seen, view, points, faces, own, voxel), parallel = bound(seen, view, points, faces, whole, voxel);
+  const auto near = [&](const OrientedBox& b) { return share_on_surface(seen, points, b, kNearSurface); };
+  return near(parallel) >= near(box) - kAsNear && parallel.half_size.prod() <= kAsTight * box.half_size.prod() ? parallel : box;
 }
 
 }  // namespace unseen::cuboids

@@ -15,4 +15,13 @@ namespace unseen::cuboids {
 OrientedBox bound(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
                   double voxel);
 
+constexpr double kNearSurface = 2.0;  // standard deviations: what lies on a side of a box
+
+/// Share of the points that lie on the surface of a box, as near as so many standard deviations.
+double share_on_surface(const Observation& seen, std::span<const int> points, const OrientedBox& box, double sigmas);
+
+/// The box around a part of something: along the axes of the `whole`, unless its `own` explain its points better. Slender parts hardly tell theirs.
+OrientedBox bound_along(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, const Mat3& own,
+                        const Mat3& whole, double voxel);
+
 }  // namespace unseen::cuboids

@@ -21,6 +21,7 @@ constexpr double kFinestVoxel = 0.005;  // of the radius of the objects
 constexpr double kFarthest = 100.0;     // m
 constexpr double kOnSurfaceSigmas = 3.0, kOnSurface = 0.8;  // of the points of a remnant
 constexpr double kRemnant = 0.25;                            // of the points of what it is a remnant of, at most
+constexpr double kSlender = 16.0, kSlenderLength = 2.0;      // σ, of a post's width at most, and widths, of its length at least
 
 /// Bounding radius of the objects, supports left out.
 double radius_of(const Observation& seen, const std::vector<ObjectPart>& parts) {
@@ -48,14 +49,24 @@ OrientedBox set_down(const Observation& seen, std::span<const int> points, Orien
   return box;
 }
 
-/// Share of the points that lie on the surface of a box, as near as their noise lets them.
-double share_on_surface(const Observation& seen, std::span<const int> points, const OrientedBox& box) {
-  std::size_t count = 0;
-  for (const int i : points) {
-    const Vec3 beyond = (box.axes.transpose() * (seen.points[i] - box.center)).cwiseAbs() - box.half_size;
-    count += std::abs(beyond.maxCoeff()) < kOnSurfaceSigmas * seen.graph.sigma[i];
-  }
-  return static_cast<double>(count) / static_cast<double>(points.size());
+/// Whether noise leaves open how an upright box is turned.
+bool is_post(const OrientedBox& box, double sigma) {
+  const double half_width = box.half_size.head<2>().maxCoeff();
+  return 2.0 * half_width < kSlender * sigma && box.half_size.z() > kSlenderLength * half_width;
+}
+
+/// Of each part that is a post, the largest other one in whose plan it lies, as a leg below a top; −1 = none.
+std::vector<int> tops_of_posts(const Observation& seen, const std::vector<ObjectPart>& parts, const std::vector<OrientedBox>& boxes) {
+  std::vector<char> post;
+  for (std::size_t k = 0; k < parts.size(); ++k) post.push_back(is_post(boxes[k], mean_sigma(seen, parts[k].points)));
+  std::vector<int> tops(parts.size(), -1);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      if (!post[k] || post[j] || parts[k].free_orientation || (tops[k] >= 0 && boxes[j].volume() <= boxes[tops[k]].volume())) continue;
+      const Vec3 off = (boxes[j].axes.transpose() * (boxes[k].center - boxes[j].center)).cwiseAbs() - boxes[j].half_size;
+      if (std::max(off.x(), off.y()) < boxes[k].half_size.head<2>().maxCoeff()) tops[k] = static_cast<int>(j);
+    }
+  return tops;
 }
 
 /// Of each part, whether it is but a remnant of another one that is none, and whose box is known better: a strip of a top that something stands on.
@@ -67,7 +78,7 @@ std::vector<char> find_remnants(const Observation& seen, const std::vector<Objec
   for (const std::size_t k : order)
     remnant[k] = parts[k].label.empty() && std::any_of(order.begin(), order.end(), [&](std::size_t other) {
       return full[other] && !remnant[other] && parts[other].label.empty() && static_cast<double>(parts[k].points.size()) < kRemnant * static_cast<double>(parts[other].points.size()) &&
-             share_on_surface(seen, parts[k].points, boxes[other]) > kOnSurface;
+             share_on_surface(seen, parts[k].points, boxes[other], kOnSurfaceSigmas) > kOnSurface;
     });
   return remnant;
 }
@@ -121,15 +132,19 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     cuboids.push_back(cuboid);
     set_downs.push_back(set_down(seen, points, box));
   };
-  std::vector<OrientedBox> boxes(parts.size());
-  std::vector<char> full(parts.size());
+  std::vector<OrientedBox> boxes;
   const auto voxel_of = [&](const ObjectPart& part) { return std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest); };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];
-    const double voxel = voxel_of(part);
-    boxes[k] = bound(seen, view, part.points, faces_of[k], box_axes(seen, view, part.points, faces_of[k], part.free_orientation), voxel);
-    full[k] = filled_share(view, set_down(seen, part.points, boxes[k]), voxel) >= options.fill;
+    boxes.push_back(bound(seen, view, part.points, faces_of[k], box_axes(seen, view, part.points, faces_of[k], part.free_orientation), voxel_of(part)));
+  }
+  const std::vector<int> top = tops_of_posts(seen, parts, boxes);
+  std::vector<char> full;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const double voxel = voxel_of(parts[k]);
+    if (top[k] >= 0) boxes[k] = bound_along(seen, view, parts[k].points, faces_of[k], boxes[k].axes, boxes[top[k]].axes, voxel);
+    full.push_back(filled_share(view, set_down(seen, parts[k].points, boxes[k]), voxel) >= options.fill);
   }
   const std::vector<char> remnant = find_remnants(seen, parts, boxes, full);
   if (const auto count = std::count(remnant.begin(), remnant.end(), 1); count > 0)

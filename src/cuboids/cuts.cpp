@@ -123,14 +123,21 @@ std::vector<const Face*> faces_within(const GroupedFaces& faces, std::span<const
   return within;
 }
 
+/// Share of a piece's points that are sides of a box: of faces along its axes, or near its surface, as of posts too slender to tell their faces.
+double explained_by_box(const Observation& seen, const DepthView& view, const Piece& piece, std::span<const Face* const> faces, const Mat3& whole) {
+  const Mat3 axes = box_axes(seen, view, piece.points, faces, false);
+  const OrientedBox box = bound_along(seen, view, piece.points, faces, axes, whole, 0.0);
+  return std::max(explained_share(piece.points, faces, axes), share_on_surface(seen, piece.points, box, kNearSurface));
+}
+
 /// Whether nearly all of what was seen of the pieces are sides of boxes, or most of it and far more than of the whole, of which `explained_whole` are.
-bool are_boxes(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, double explained_whole) {
+bool are_boxes(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, const Mat3& whole, double explained_whole) {
   const GroupedFaces faces = faces_of(seen, pieces);
   double all = 0, explained = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const double count = static_cast<double>(pieces[k].points.size());
     all += count;
-    explained += count * explained_share(pieces[k].points, faces.of_group[k], box_axes(seen, view, pieces[k].points, faces.of_group[k], false));
+    explained += count * explained_by_box(seen, view, pieces[k], faces.of_group[k], whole);
   }
   const double share = explained / all;
   return share >= kFlat || (share >= kNearlyFlat && 1.0 - share <= kLessRest * (1.0 - explained_whole));
@@ -165,12 +172,12 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
       }
       const double explained = explained_share(points, own, interior.axes);
       std::vector<Piece> pieces = cut_by_axes(seen, interior, faces.faces.faces, points);
-      if (saves(whole, pieces) && are_boxes(seen, view, pieces, explained)) {
+      if (saves(whole, pieces) && are_boxes(seen, view, pieces, interior.axes, explained)) {
         for (Piece& piece : pieces) open.push_back(std::move(piece.points));
         continue;
       }
       pieces = cut_apart(seen, interior, planes_before(seen, own, points.size()), whole, hollow, context);
-      if (pieces.size() < 2 || !are_boxes(seen, view, pieces, explained)) keep(std::move(points));
+      if (pieces.size() < 2 || !are_boxes(seen, view, pieces, interior.axes, explained)) keep(std::move(points));
       else
         for (Piece& piece : pieces) keep(std::move(piece.points));
     }
