@@ -126,6 +126,12 @@ OrientedBox bound(const Observation& seen, const DepthView& view, std::span<cons
   return box;
 }
 
+double mean_sigma(const Observation& seen, std::span<const int> points) {
+  double sum = 0;
+  for (const int i : points) sum += seen.graph.sigma[i];
+  return sum / static_cast<double>(points.size());
+}
+
 double share_on_surface(const Observation& seen, std::span<const int> points, const OrientedBox& box, double sigmas) {
   std::size_t count = 0;
   for (const int i : points) {

@@ -15,6 +15,9 @@ namespace unseen::cuboids {
 OrientedBox bound(const Observation& seen, const DepthView& view, std::span<const int> points, std::span<const Face* const> faces, const Mat3& axes,
                   double voxel);
 
+/// m: mean standard deviation of points.
+double mean_sigma(const Observation& seen, std::span<const int> points);
+
 constexpr double kNearSurface = 2.0;  // standard deviations: what lies on a side of a box
 
 /// Share of the points that lie on the surface of a box, as near as so many standard deviations.

@@ -31,12 +31,6 @@ double radius_of(const Observation& seen, const std::vector<ObjectPart>& parts) 
   return 0.5 * (high - low).norm();
 }
 
-double mean_sigma(const Observation& seen, std::span<const int> points) {
-  double sum = 0;
-  for (const int i : points) sum += seen.graph.sigma[i];
-  return sum / static_cast<double>(points.size());
-}
-
 double bottom_of(const OrientedBox& box) { return box.center.z() - box.half_size.z(); }
 
 /// What ends just above the ground stands on it: its lowest slice counts as ground's.

@@ -25,6 +25,7 @@ constexpr double kBeforeFaceSigmas = 3.0;
 constexpr double kFlat = 0.9;               // of the points, on sides of boxes
 constexpr double kNearlyFlat = 0.8, kLessRest = 1.0 / 3.0;  // the same, where so much less is on none than before the cut: round spines and edges
 constexpr int kFewestFlatPoints = 24;
+constexpr double kTellingSigmas = 8.0;  // of the second of a box's sides: what is thinner is near its surface in any case
 const double kParallelCosine = std::cos(radians(10.0));
 
 /// Parts the faces that lie along the axes from those that do not, as of a plank that leans on a crate. A face along the axes that borders mostly on
@@ -127,7 +128,11 @@ std::vector<const Face*> faces_within(const GroupedFaces& faces, std::span<const
 double explained_by_box(const Observation& seen, const DepthView& view, const Piece& piece, std::span<const Face* const> faces, const Mat3& whole) {
   const Mat3 axes = box_axes(seen, view, piece.points, faces, false);
   const OrientedBox box = bound_along(seen, view, piece.points, faces, axes, whole, 0.0);
-  return std::max(explained_share(piece.points, faces, axes), share_on_surface(seen, piece.points, box, kNearSurface));
+  const double by_faces = explained_share(piece.points, faces, axes);
+  Vec3 size = 2.0 * box.half_size;
+  std::sort(size.begin(), size.end());
+  if (size[1] < kTellingSigmas * mean_sigma(seen, piece.points)) return by_faces;
+  return std::max(by_faces, share_on_surface(seen, piece.points, box, kNearSurface));
 }
 
 /// Whether nearly all of what was seen of the pieces are sides of boxes, or most of it and far more than of the whole, of which `explained_whole` are.

@@ -69,13 +69,13 @@ TEST(Cuts, BoxesTurnedOnEachOtherAreCutOnceEach) {  // in the axes of one, the h
   EXPECT_EQ(p.fitted.size(), 2u);
 }
 
-/// A table two metres away, turned by 35°, its legs five centimetres wide.
+/// A table turned by 35°, its legs five centimetres wide.
 Scene table() {
   Scene scene;
-  scene.height = 1.5;
-  scene.pitch = radians(32.0);
-  scene.noise = 0.0015;
-  scene.boxes = {upright(-0.05, 1.8, 0.46, {0.7, 0.45, 0.025}, 35)};
+  scene.height = 1.3;
+  scene.pitch = radians(38.0);
+  scene.noise = 0.002;
+  scene.boxes = {upright(-0.05, 1.4, 0.46, {0.7, 0.45, 0.025}, 35)};
   for (const Vec2& side : {Vec2(-1, -1), Vec2(-1, 1), Vec2(1, -1), Vec2(1, 1)}) {
     const Vec3 corner = scene.boxes[0].center + scene.boxes[0].axes * Vec3(0.31 * side.x(), 0.185 * side.y(), 0);
     scene.boxes.push_back(upright(corner.x(), corner.y(), 0, {0.05, 0.05, 0.46}, 35));
