@@ -9,7 +9,6 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one standard deviation from the centre may be turned off
-constexpr double kWorse = 2.0;        // times the rms of its own fit: less may be what the surface is not flat by
 constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
 /// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.
@@ -27,10 +26,10 @@ void refit_held(Model& model, double tolerance, const Space& space) {
   for (std::size_t round = 0; round <= model.surfaces.size(); ++round) {
     refit(model);
     if (space.is_2d()) return;
-    Surface* farthest = nullptr;
+    Surface* farthest = nullptr;  // but what a surface is not flat by is no reason
     double most = kCarriedAway * tolerance;
     for (Surface& s : model.surfaces)
-      if (const double off = turned_off(s, model.normal(s)); s.frame < static_cast<int>(shared) && off > std::max(most, kWorse * s.support.fit.rms)) most = off, farthest = &s;
+      if (const double off = turned_off(s, model.normal(s)); s.frame < static_cast<int>(shared) && off > std::max(most, s.support.fit.rms)) most = off, farthest = &s;
     if (farthest == nullptr) return;
     farthest->local = 0;
     farthest->frame = static_cast<int>(shared);
