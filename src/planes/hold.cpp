@@ -8,7 +8,8 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one standard deviation from the centre may be turned off
+constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one standard deviation from the centre may be turned off, and no less than the rms of
+                                      // the surface's own fit, which is what it is not flat by
 constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
 /// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.
@@ -26,7 +27,7 @@ void refit_held(Model& model, double tolerance, const Space& space) {
   for (std::size_t round = 0; round <= model.surfaces.size(); ++round) {
     refit(model);
     if (space.is_2d()) return;
-    Surface* farthest = nullptr;  // but what a surface is not flat by is no reason
+    Surface* farthest = nullptr;
     double most = kCarriedAway * tolerance;
     for (Surface& s : model.surfaces)
       if (const double off = turned_off(s, model.normal(s)); s.frame < static_cast<int>(shared) && off > std::max(most, s.support.fit.rms)) most = off, farthest = &s;
