@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/shot_problem.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "collision/size_trend.h"
@@ -46,6 +48,8 @@ ShotCamera complete_camera(const Shot& shot, int width, int height) {
   ShotCamera c = shot.camera;
   Camera& k = c.camera;
   if (k.width == 0) k.width = width, k.height = height;
+  if (width > 0 && (k.width != width || k.height != height))
+    throw InputError(shot.name, "camera", fmt::format("a size of {} × {}", k.width, k.height), fmt::format("{} × {}, as the video has", width, height));
   if (k.width <= 0) throw InputError(shot.name, "camera", "no image size", "width and height, or a video");
   if (k.fx <= 0.0) {
     k.fx = k.fy = 0.5 * k.width / std::tan(0.5 * c.hfov.value_or(radians(60.0)));

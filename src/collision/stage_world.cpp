@@ -14,7 +14,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kShortestStep = 1.0 / 9600;  // s: a body at 5 m/s goes half a millimetre
+constexpr double kLongestStep = 1.0 / 9600;  // s: a body at 5 m/s goes half a millimetre
 constexpr double kSameImpact = 1e-3;          // s: contacts of a pair in quicker succession are one impact, with the values of the hardest
 constexpr double kSlowestImpact = 0.05;             // m/s: slower contacts are no impacts
 constexpr double kSameTime = 2e-5;            // s: what an animation tells apart
@@ -182,7 +182,7 @@ class Simulation {
 }  // namespace
 
 StageRun simulate(const Cast& cast, double fps, double duration, const Context& context) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(1.0 / (fps * kShortestStep) - 1e-9)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(1.0 / (fps * kLongestStep) - 1e-9)));
   const int frames = static_cast<int>(std::floor(duration * fps + 1e-9));
   Simulation simulation(cast, 1.0 / (fps * steps));
   StageRun run;

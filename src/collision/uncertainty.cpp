@@ -3,6 +3,8 @@
 #include "collision/uncertainty.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "collision/focal_doubt.h"
 #include "collision/normal_doubts.h"
@@ -121,7 +123,8 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   std::vector<Problem> drawn;
   Random random(static_cast<std::uint64_t>(seed));
   for (int i = 0; i < resamples; ++i) drawn.push_back(resampled(problem, residuals, scale, random));
-  std::vector<double> c(drawn.size(), result.restitution.value), m(drawn.size(), result.mass_ratio.value);
+  constexpr double kFailed = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> c(drawn.size(), kFailed), m(drawn.size(), kFailed);
   parallel_blocks(context, drawn.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       context.check();
@@ -131,6 +134,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
       m[i] = fit.state.mass_ratio;
     }
   });
+  for (std::vector<double>* values : {&c, &m}) std::erase_if(*values, [](double value) { return std::isnan(value); });
   double c_spread = deviation(c, result.restitution.value), m_spread = deviation(m, result.mass_ratio.value);
   const double c_noise = std::max(c_spread, by_covariance);
   for (const Alternative& other : solution.others) {  // half as likely as the best where χ² is as low

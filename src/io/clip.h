@@ -10,7 +10,7 @@ namespace unseen::io {
 /// A video file, read from its first frame to its last. Decoding is silent.
 class Clip {
  public:
-  /// Throws InputError for a file that is missing, not a video, or without a frame rate or size that can be used.
+  /// Throws InputError for a file that is missing, not a video, or without a size that can be used.
   explicit Clip(std::string path);
 
   /// Decodes the next frame (8-bit BGR, turned as the file asks); false at the end. The image is overwritten by the next call.

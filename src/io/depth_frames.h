@@ -18,7 +18,7 @@ struct DepthFrame {
 
 /// What a folder of depth frames holds.
 struct DepthFolder {
-  Camera camera;                   ///< size from the first image
+  Camera camera;                   ///< without a size: the images have it
   std::vector<DepthFrame> frames;  ///< in the order of their names, those whose pose is usable
   std::vector<std::string> notes;  ///< one for each frame left out
 };

@@ -53,7 +53,7 @@ GivenSupport parse_support(const std::string& text, const std::string& source) {
 
 Camera camera_of_matrix(const JsonField& field) {  // Open3D writes it column by column
   const auto k = field.list();
-  if (k.size() != 9) field.fail("nine numbers, column by column");
+  if (k.size() != 9 || k[2].number() != 0.0 || k[5].number() != 0.0 || k[8].number() != 1.0) field.fail("nine numbers, column by column: fx, 0, 0, 0, fy, 0, cx, cy, 1");
   Camera camera;
   camera.fx = k[0].number();
   camera.fy = k[4].number();

@@ -228,6 +228,14 @@ TEST(Reconstruct, TellsTheTimesOfFramesThatComeUnevenly) {
     }
 }
 
+TEST(Reconstruct, ACameraOfAnotherSizeThanTheVideoIsRefused) {  // its focal length and principal point are pixels of that size
+  Shot shot = bouncing_ball(0.7, 55);
+  shot.camera.camera.width = 3840;
+  shot.camera.camera.height = 2160;
+  EXPECT_NO_THROW(complete_camera(shot, 3840, 2160));
+  EXPECT_THROW(complete_camera(shot, 1920, 1080), InputError);
+}
+
 TEST(Reconstruct, ADownThatPointsUpIsNoFit) {
   SynthOptions synth;
   synth.scene = "ball-floor";

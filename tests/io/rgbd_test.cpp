@@ -125,6 +125,9 @@ TEST_F(Rgbd, FoldersWithUsualNames) {
   EXPECT_EQ(f.camera.fy, 13);
   EXPECT_EQ(f.camera.cx, 3.5);
   EXPECT_EQ(f.camera.cy, 2.5);
+  write("intrinsics.json", R"({"intrinsic_matrix": [12, 0, 3.5, 0, 13, 2.5, 0, 0, 1]})");
+  EXPECT_THROW(read_rgbd_frame(folder_), InputError);  // row by row: its principal point would be the corner
+  write("intrinsics.json", R"({"intrinsic_matrix": [12, 0, 0, 0, 13, 0, 3.5, 2.5, 1]})");
   fs::remove(file("color.png"));
   fs::rename(file("masks.png"), file("rgb.png"));
   EXPECT_EQ(read_rgbd_frame(folder_).color.at(5), (std::array<std::uint8_t, 3>{2, 2, 2}));

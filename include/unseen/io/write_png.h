@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace unseen::io {
 
@@ -17,8 +15,5 @@ void write_grey_png(const std::filesystem::path& path, int width, int height, st
 /// The same in 8 bits and red, green, blue.
 void write_color_png(const std::filesystem::path& path, int width, int height,
                      std::span<const std::array<std::uint8_t, 3>> pixels);
-
-/// A picture (sRGB, row by row) as the bytes of a JPEG file; quality in 0…100.
-std::string jpeg_of(const std::vector<std::array<std::uint8_t, 3>>& colors, int width, int height, int quality = 85);
 
 }  // namespace unseen::io
