@@ -59,8 +59,7 @@ void print_summary(const collision::Reconstruction& r, const CollisionArguments&
   for (const collision::Alternative& a : r.ambiguous)
     fmt::print("ambiguous: {} explains it too (restitution {:.3f}{})\n", a.what, a.restitution, r.fixed.empty() ? fmt::format(", mass ratio {:.3f}", a.mass_ratio) : "");
   for (const std::string& remark : r.observability) fmt::print("{}\n", remark);
-  fmt::print("{}: {}\n", args.no_report ? "result" : "report",
-             (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
+  print_place(args.out, args.no_report);
 }
 
 void write_files(const collision::Shot& shot, collision::Reconstruction& r, const CollisionArguments& args, const OptionTable& table,
@@ -92,16 +91,7 @@ int run(CollisionArguments& args) {
   collision::Reconstruction r = collision::reconstruct(shot, args.options, context);
   if (r.summary.status == Status::cancelled) throw Cancelled();
   write_files(shot, r, args, table, out, context);
-  context.check();
-  session.progress.warn(r.summary.warnings);
-  session.progress.warn(out.commit());
-
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(r.summary));
-  } else if (!args.common.quiet) {
-    print_summary(r, args);
-  }
-  return r.summary.status == Status::infeasible ? kNoSolution : kSolved;
+  return finish(session, out, r.summary, args.common, [&] { print_summary(r, args); });
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ void print_summary(const cuboids::Completion& c, const CuboidsArguments& args) {
       fmt::print("only something outside the picture, which cuts them off, can hold {}: {}\n", plural(c.held_outside.size(), "box", "boxes"),
                  fmt::join(c.held_outside, ", "));
   }
-  fmt::print("{}: {}\n", args.no_report ? "result" : "report",
-             (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
+  print_place(args.out, args.no_report);
 }
 
 void write_files(const cuboids::Completion& c, const RgbdFrame& frame, CuboidsArguments& args, const OptionTable& table,
@@ -113,18 +112,8 @@ int run(CuboidsArguments& args) {
   const cuboids::Completion c = cuboids::complete_cuboids(frame, args.options.method, context);
   if (c.summary.status == Status::cancelled) throw Cancelled();
   write_files(c, frame, args, table, out, context);
-  if (c.summary.status != Status::infeasible) run_applications(args.applications, frame, c, out, context);
-  context.check();
-  session.progress.warn(c.summary.warnings);
-  session.progress.warn(context.take_warnings());
-  session.progress.warn(out.commit());
-
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(c.summary));
-  } else if (!args.common.quiet) {
-    print_summary(c, args);
-  }
-  return c.summary.status == Status::infeasible ? kNoSolution : kSolved;
+  if (c.summary.status != Status::infeasible) run_applications(args.applications, frame, args.options.method, c, out, context);
+  return finish(session, out, c.summary, args.common, [&] { print_summary(c, args); });
 }
 
 }  // namespace

@@ -51,10 +51,13 @@ Model read_model(const fs::path& path) {
   return model;
 }
 
-void complete(const std::string& path, const RgbdFrame& frame, const cuboids::Completion& scene, const io::OutputFolder& out,
-              Context& context) {
+void complete(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
+              const io::OutputFolder& out, Context& context) {
   const Model model = read_model(path);
-  const cuboids::ScanCompletion found = cuboids::complete_scan(frame, scene, model.points, {}, context);
+  cuboids::ScanCompletionOptions options;
+  options.fill = method.fill;
+  options.noise = method.noise.value_or(options.noise);
+  const cuboids::ScanCompletion found = cuboids::complete_scan(frame, scene, model.points, options, context);
   write_text(out.file("completed.json"), report::scan_completion_json(found, model.name));
   if (!found.found) {
     context.warn(fmt::format("no object of the scene is like {}: no completed.ply", model.name));
@@ -85,12 +88,14 @@ std::vector<Model> read_models(const fs::path& folder, Context& context) {
   return models;
 }
 
-void retrieve(const ApplicationFlags& flags, const cuboids::Completion& scene, const io::OutputFolder& out, Context& context) {
+void retrieve(const ApplicationFlags& flags, const cuboids::Options& method, const cuboids::Completion& scene, const io::OutputFolder& out,
+              Context& context) {
   const std::vector<Model> models = read_models(flags.retrieve, context);
   std::vector<cuboids::RetrievalModel> candidates;
   for (const Model& model : models) candidates.push_back({model.name, model.points.positions});
   cuboids::RetrievalOptions options;
   options.ids = flags.object;
+  options.seed = static_cast<std::uint64_t>(method.seed);
   const cuboids::Retrieval found = cuboids::retrieve_models(scene, candidates, options, context);
   write_text(out.file("retrieved.json"), report::retrieval_json(found, candidates));
   const cuboids::RetrievedModel& best = found.ranked.front();
@@ -106,10 +111,13 @@ void retrieve(const ApplicationFlags& flags, const cuboids::Completion& scene, c
   io::write_points(out.file("retrieved.ply"), cloud, context);
 }
 
-void edit(const std::string& path, const RgbdFrame& frame, const cuboids::Completion& scene, const io::OutputFolder& out,
-          Context& context) {
+void edit(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
+          const io::OutputFolder& out, Context& context) {
   const auto edits = report::parse_photo_edits(read_text(path, kLargestEdits), path);
-  const cuboids::EditedPhoto edited = cuboids::edit_photo(frame, scene, edits, {}, context);
+  cuboids::PhotoEditOptions options;
+  options.noise = method.noise.value_or(options.noise);
+  options.seed = static_cast<std::uint64_t>(method.seed);
+  const cuboids::EditedPhoto edited = cuboids::edit_photo(frame, scene, edits, options, context);
   io::write_color_png(out.file("edited.png"), edited.width, edited.height, edited.pixels);
 }
 
@@ -126,11 +134,11 @@ void add_flags(CLI::App& app, ApplicationFlags& flags) {
   app.add_option("--edit", flags.edit, "move or remove objects in the photograph: edited.png")->type_name("EDITS.json");
 }
 
-void run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Completion& scene,
-                      io::OutputFolder& out, Context& context) {
-  if (!flags.complete.empty()) complete(flags.complete, frame, scene, out, context);
-  if (!flags.retrieve.empty()) retrieve(flags, scene, out, context);
-  if (!flags.edit.empty()) edit(flags.edit, frame, scene, out, context);
+void run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Options& method,
+                      const cuboids::Completion& scene, io::OutputFolder& out, Context& context) {
+  if (!flags.complete.empty()) complete(flags.complete, frame, method, scene, out, context);
+  if (!flags.retrieve.empty()) retrieve(flags, method, scene, out, context);
+  if (!flags.edit.empty()) edit(flags.edit, frame, method, scene, out, context);
 }
 
 }  // namespace unseen::cli

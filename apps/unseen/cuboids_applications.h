@@ -8,6 +8,7 @@
 
 #include "unseen/core/context.h"
 #include "unseen/core/rgbd_frame.h"
+#include "unseen/cuboids/options.h"
 #include "unseen/cuboids/types.h"
 #include "unseen/io/output_folder.h"
 
@@ -22,9 +23,9 @@ struct ApplicationFlags {
 };
 void add_flags(CLI::App& app, ApplicationFlags& flags);
 
-/// Writes completed.ply and completed.json, retrieved.ply and retrieved.json, edited.png, as far as they are asked for.
+/// With the method's options as the scene was made with them. Writes completed.ply and completed.json, retrieved.ply and retrieved.json, edited.png, as far as they are asked for.
 /// Throws InputError for files that cannot be used.
-void run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Completion& scene,
-                      io::OutputFolder& out, Context& context);
+void run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Options& method,
+                      const cuboids::Completion& scene, io::OutputFolder& out, Context& context);
 
 }  // namespace unseen::cli

@@ -39,31 +39,16 @@ struct InteractionsArguments {
   InteractionsOptions options;
 };
 
-std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths, const InteractionsOptions& options, Context& context) {
-  std::vector<interactions::Take> takes;
-  for (const std::string& path : paths)
-    takes.push_back(options.pose_model.empty() ? report::read_take(path) : report::detect_poses(options.pose_model, path, options.network, context));
-  return takes;
-}
-
 /// All databases as one; saliency is that among all scenelets.
-interactions::Database read_databases(const InteractionsOptions& options) {
+interactions::Database read_databases(const InteractionsOptions& options, const Context& context) {
   std::vector<interactions::Database> parts;
   if (options.shipped) parts.push_back(report::shipped_database());
   std::istringstream paths(options.scenelets);
   for (std::string path; std::getline(paths, path, ';');)
     if (!path.empty()) parts.push_back(report::read_database(path));
-  interactions::Database all = parts.size() == 1 ? std::move(parts.front()) : interactions::join(parts, {});
+  interactions::Database all = parts.size() == 1 ? std::move(parts.front()) : interactions::join(parts, {}, context);
   if (all.scenelets.empty()) throw InputError(kCommandLine, "--scenelets", "no scenelet", "a database with some, of unseen scenelets build");
   return all;
-}
-
-/// Several takes count as a text that lists them; its hash is that of the lines "HASH  PATH".
-report::InputRecord record_of(const std::vector<std::string>& paths, const Context& context) {
-  if (paths.size() == 1) return {paths.front(), io::sha256(std::filesystem::path(paths.front()), context)};
-  std::string lines;
-  for (const std::string& path : paths) lines += fmt::format("{}  {}\n", io::sha256(std::filesystem::path(path), context), path);
-  return {fmt::format("{}", fmt::join(paths, ", ")), io::sha256(std::string_view(lines))};
 }
 
 /// Its bytes for the page; empty if there is no map.
@@ -110,8 +95,7 @@ void print_summary(const interactions::Reconstruction& r, const InteractionsArgu
   double seconds = 0;
   for (const auto& stage : r.summary.seconds) seconds += stage.second;
   fmt::print("{}, {}, {:.1f} s of work\n", counted(r.people.size(), "person", "people"), counted(frames, "pose", "poses"), seconds);
-  fmt::print("{}: {}\n", args.no_report ? "result" : "report",
-             (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
+  print_place(args.out, args.no_report);
 }
 
 int run(InteractionsArguments& args) {
@@ -127,24 +111,39 @@ int run(InteractionsArguments& args) {
   Context& context = session.context;
 
   const std::vector<interactions::Take> takes = read_takes(args.inputs, args.options, context);
-  const interactions::Database database = read_databases(args.options);
+  const interactions::Database database = read_databases(args.options, context);
   io::OutputFolder out(args.out);
   interactions::Reconstruction r = interactions::reconstruct(takes, database, args.options.method, context);
   if (r.summary.status == Status::cancelled) throw Cancelled();
   write_files(takes, r, args, table, out, context);
-  context.check();
-  session.progress.warn(r.summary.warnings);
-  session.progress.warn(out.commit());
-
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(r.summary));
-  } else if (!args.common.quiet) {
-    print_summary(r, args);
-  }
-  return r.summary.status == Status::infeasible ? kNoSolution : kSolved;
+  return finish(session, out, r.summary, args.common, [&] { print_summary(r, args); });
 }
 
 }  // namespace
+
+std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths, const InteractionsOptions& options, Context& context) {
+  std::vector<interactions::Take> takes;
+  for (const std::string& path : paths)
+    takes.push_back(options.pose_model.empty() ? report::read_take(path) : report::detect_poses(options.pose_model, path, options.network, context));
+  return takes;
+}
+
+report::InputRecord record_of(const std::vector<std::string>& paths, const Context& context) {
+  if (paths.size() == 1) return {paths.front(), io::sha256(std::filesystem::path(paths.front()), context)};
+  std::string lines;
+  for (const std::string& path : paths) lines += fmt::format("{}  {}\n", io::sha256(std::filesystem::path(path), context), path);
+  return {fmt::format("{}", fmt::join(paths, kBetweenTakes)), io::sha256(std::string_view(lines))};
+}
+
+std::vector<std::string> takes_of(const report::InputRecord& input) {
+  if (std::filesystem::exists(input.path)) return {input.path};
+  std::vector<std::string> paths;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = input.path.find(kBetweenTakes, begin)) != std::string::npos; begin = end + kBetweenTakes.size())
+    paths.push_back(input.path.substr(begin, end - begin));
+  paths.push_back(input.path.substr(begin));
+  return paths;
+}
 
 OptionTable InteractionsOptions::table() {
   constexpr double kInf = std::numeric_limits<double>::infinity();

@@ -4,10 +4,15 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "unseen/core/context.h"
 #include "unseen/core/options.h"
 #include "unseen/interactions/options.h"
+#include "unseen/interactions/types.h"
 #include "unseen/report/pose_network.h"
+#include "unseen/report/stored_run.h"
 
 namespace unseen::cli {
 
@@ -24,5 +29,16 @@ struct InteractionsOptions {
   /// The table points into this.
   OptionTable table();
 };
+
+/// The takes of these files; of videos, with a pose network.
+std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths, const InteractionsOptions& options, Context& context);
+
+inline constexpr std::string_view kBetweenTakes = ", ";
+
+/// Several takes count as a text that lists them; its hash is that of the lines "HASH  PATH".
+report::InputRecord record_of(const std::vector<std::string>& paths, const Context& context);
+
+/// The files of such a record.
+std::vector<std::string> takes_of(const report::InputRecord& input);
 
 }  // namespace unseen::cli

@@ -71,8 +71,7 @@ void print_summary(const planes::Arrangement& a, const PlanesArguments& args, bo
              plural(a.plane_relations, "pair"), thing);
   fmt::print("scale {:.4g} m{}\n", a.scale, estimated ? " (estimated; --scale sets it)" : "");
   if (a.planes.empty()) fmt::print("nothing found: a smaller or larger --scale may help\n");
-  fmt::print("{}: {}\n", args.no_report ? "result" : "report",
-             (std::filesystem::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
+  print_place(args.out, args.no_report);
 }
 
 /// Adds what the reader had to guess or leave out, unless the method has said so already.
@@ -135,16 +134,7 @@ int run(PlanesArguments& args) {
   if (a.summary.status == Status::cancelled) throw Cancelled();
   add_notes(source->info(), a.summary);
   write_files(a, args, table, streamed, out, context);
-  context.check();
-  session.progress.warn(a.summary.warnings);
-  session.progress.warn(out.commit());
-
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(a.summary));
-  } else if (!args.common.quiet) {
-    print_summary(a, args, source->info().two_dimensional);
-  }
-  return a.summary.status == Status::infeasible ? kNoSolution : kSolved;
+  return finish(session, out, a.summary, args.common, [&] { print_summary(a, args, source->info().two_dimensional); });
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ int run(SceneletsBuildArguments& args) {
     const Stage stage(context, summary, "build");
     parts.push_back(interactions::build_database(recordings, args.options, context));
   }
-  const interactions::Database database = parts.size() == 1 ? std::move(parts.front()) : interactions::join(parts, args.options);
+  const interactions::Database database = parts.size() == 1 ? std::move(parts.front()) : interactions::join(parts, args.options, context);
   context.check();
   const std::string bytes = report::database_bytes(database);
   write_text(out.path(), bytes);

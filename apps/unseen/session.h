@@ -2,12 +2,15 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "flags.h"
 #include "interrupt.h"
 #include "progress.h"
 #include "unseen/core/context.h"
+#include "unseen/core/summary.h"
+#include "unseen/io/output_folder.h"
 
 namespace unseen::cli {
 
@@ -24,5 +27,13 @@ struct Session {
   Progress progress;
   Context context;
 };
+
+/// The end of a run: its files are put in their place, its warnings said, then its summary as JSON or `in_words`.
+/// Returns the exit code.
+int finish(Session& session, io::OutputFolder& out, const Summary& summary, const CommonFlags& common,
+           const std::function<void()>& in_words);
+
+/// The line that says where the page lies, or the result if there is no page.
+void print_place(const std::string& out, bool no_report);
 
 }  // namespace unseen::cli

@@ -51,8 +51,10 @@ report::PointSample read_points(const std::filesystem::path& path, std::size_t p
 }
 
 /// The command line that made a result, by what its options say that is not the default.
-std::string command_of(const report::StoredRun& run, const std::string& out, OptionTable& table) {
-  std::vector<std::string> words = {"unseen", run.capability, run.input.path, "-o", out};
+std::string command_of(const report::StoredRun& run, const std::vector<std::string>& inputs, const std::string& out, OptionTable& table) {
+  std::vector<std::string> words = {"unseen", run.capability};
+  words.insert(words.end(), inputs.begin(), inputs.end());
+  words.insert(words.end(), {"-o", out});
   for (const auto& [name, value] : run.options) {
     const std::string before = table.text_of(name);
     table.set(name, value, out);
@@ -71,22 +73,21 @@ Shown planes_result(const std::filesystem::path& folder, const report::StoredRun
   io::ReadOptions read;
   OptionTable table = planes::describe(options);
   append(table, io::describe(read));
-  const std::string command = command_of(run, folder.string(), table);
+  const std::string command = command_of(run, {run.input.path}, folder.string(), table);
   const report::PointSample points = read_points(folder / "points.ply", a.planes.size(), context);
   return {report::planes_title(a, run.input), report::planes_scene(a, run.input, table, command, points)};
 }
 
 /// Throws InputError if the input of a run has another content by now.
-void check_input(const report::InputRecord& input, const Context& context) {
-  if (!input.sha256.empty() && io::sha256(input.path, context) != input.sha256)
-    throw InputError(input.path, "sha256", "another content", "that of the run");
+void check_unchanged(const report::InputRecord& input, const std::string& sha256) {
+  if (!input.sha256.empty() && sha256 != input.sha256) throw InputError(input.path, "sha256", "another content", "that of the run");
 }
 
 /// The frame that a result was made from, if it is still where it was; without it the page has neither depth nor
 /// photograph, and says so.
 RgbdFrame frame_of(const report::StoredRun& run, cuboids::Completion& c, Context& context) {
   try {
-    check_input(run.input, context);
+    check_unchanged(run.input, io::sha256(run.input.path, context));
     return io::read_rgbd_frame(run.input.path);
   } catch (const InputError& error) {
     c.summary.warnings.push_back(fmt::format("shown without depth and photograph: {}", error.what()));
@@ -99,7 +100,7 @@ Shown cuboids_result(const std::filesystem::path& folder, const report::StoredRu
   cuboids::Completion c = report::read_cuboids_result(folder / "result.json");
   CuboidsOptions options;
   OptionTable table = options.table();
-  const std::string command = command_of(run, folder.string(), table);
+  const std::string command = command_of(run, {run.input.path}, folder.string(), table);
   const RgbdFrame frame = frame_of(run, c, context);
   return {report::cuboids_title(run.input), report::cuboids_scene(c, run.input, table, command, frame)};
 }
@@ -108,11 +109,11 @@ Shown collision_result(const std::filesystem::path& folder, const report::Stored
   collision::Reconstruction r = report::read_collision_result(folder / "result.json");
   collision::Options options;
   OptionTable table = collision::describe(options);
-  const std::string command = command_of(run, folder.string(), table);
+  const std::string command = command_of(run, {run.input.path}, folder.string(), table);
   collision::Shot shot;
   std::vector<collision::OverlayPicture> pictures;
   try {  // without the shot the page has neither shapes nor clip, and says so
-    check_input(run.input, context);
+    check_unchanged(run.input, io::sha256(run.input.path, context));
     shot = report::read_shot(run.input.path);
     pictures = collision::write_overlay(shot, r, "", context);
   } catch (const InputError& error) {
@@ -126,12 +127,12 @@ Shown interactions_result(const std::filesystem::path& folder, const report::Sto
   interactions::Reconstruction r = report::read_interactions_result(folder / "result.json");
   InteractionsOptions options;
   OptionTable table = options.table();
-  const std::string command = command_of(run, folder.string(), table);
+  const std::vector<std::string> inputs = takes_of(run.input);
+  const std::string command = command_of(run, inputs, folder.string(), table);
   std::vector<interactions::Take> takes;
   try {  // without the take the page does not show what the detector saw, and says so
-    check_input(run.input, context);
-    const std::string& path = run.input.path;
-    takes.push_back(options.pose_model.empty() ? report::read_take(path) : report::detect_poses(options.pose_model, path, options.network, context));
+    check_unchanged(run.input, record_of(inputs, context).sha256);
+    takes = read_takes(inputs, options, context);
   } catch (const InputError& error) {
     r.summary.warnings.push_back(fmt::format("shown without the detections: {}", error.what()));
     context.warn(r.summary.warnings.back());

@@ -49,7 +49,7 @@ void print_summary(const collision::StagedShot& shot, const StageArguments& args
   const auto name = [&](int i) { return i >= 0 ? shot.actors[static_cast<std::size_t>(i)].name : shot.walls[static_cast<std::size_t>(-1 - i)].name; };
   for (const collision::StagedImpact& i : shot.impacts)
     fmt::print("{:.4f} s: {} and {}, restitution {:.3f} of {:.3f}\n", i.time, name(i.between[0]), name(i.between[1]), i.restitution, i.expected);
-  fmt::print("{}: {}\n", args.no_report ? "result" : "report", (fs::path(args.out) / (args.no_report ? "result.json" : "report.html")).string());
+  print_place(args.out, args.no_report);
 }
 
 int run(StageArguments& args) {
@@ -65,15 +65,7 @@ int run(StageArguments& args) {
   io::OutputFolder out(args.out);
   const collision::StagedShot shot = collision::stage(plan, context);
   write_files(shot, args, out, context);
-  context.check();
-  session.progress.warn(shot.summary.warnings);
-  session.progress.warn(out.commit());
-  if (args.common.json) {
-    fmt::print("{}", report::summary_json(shot.summary));
-  } else if (!args.common.quiet) {
-    print_summary(shot, args);
-  }
-  return shot.summary.status == Status::infeasible ? kNoSolution : kSolved;
+  return finish(session, out, shot.summary, args.common, [&] { print_summary(shot, args); });
 }
 
 }  // namespace

@@ -95,12 +95,11 @@ Database build_database(const std::vector<Recording>& recordings, const Scenelet
         }
     database.recordings.push_back({recording.name, recording.room, recording.licence});
   }
-  context.check();
-  database.scenelets = with_saliency(std::move(database.scenelets), options.motion_sigma);
+  database.scenelets = with_saliency(std::move(database.scenelets), options.motion_sigma, context);
   return database;
 }
 
-Database join(const std::vector<Database>& databases, const SceneletOptions& options) {
+Database join(const std::vector<Database>& databases, const SceneletOptions& options, const Context& context) {
   check(options);
   Database all;
   for (const Database& database : databases)
@@ -113,7 +112,7 @@ Database join(const std::vector<Database>& databases, const SceneletOptions& opt
       }
       all.recordings.push_back(database.recordings[i]);
     }
-  all.scenelets = with_saliency(std::move(all.scenelets), options.motion_sigma);
+  all.scenelets = with_saliency(std::move(all.scenelets), options.motion_sigma, context);
   return all;
 }
 

@@ -25,6 +25,17 @@ void check(const Take& take, const Take& first) {
   if (take.fps != first.fps) throw InputError(take.name, "fps", fmt::format("{:g}", take.fps), fmt::format("{:g} as in {}", first.fps, first.name));
 }
 
+/// What one take says of the camera's place counts for all: they are of one camera. Throws InputError where two say different things.
+void add_pose(const Take& take, Take& all) {
+  constexpr double kSameTurn = 2.0 * kPi / 180.0, kSameHeight = 0.05;  // m
+  if (take.up && all.up && take.up->dot(*all.up) < std::cos(kSameTurn))
+    throw InputError(take.name, "up", "another direction", fmt::format("that of the takes before, of {} on: takes of one camera", all.name));
+  if (take.camera_height && all.camera_height && std::abs(*take.camera_height - *all.camera_height) > kSameHeight)
+    throw InputError(take.name, "camera_height", fmt::format("{:.3g} m", *take.camera_height), fmt::format("{:.3g} m, as before: takes of one camera", *all.camera_height));
+  if (!all.up) all.up = take.up;
+  if (!all.camera_height) all.camera_height = take.camera_height;
+}
+
 /// What is odd about who is who.
 void remark_on_people(const Take& take, const std::vector<int>& persons, std::vector<std::string>& remarks) {
   const auto nobody = static_cast<std::size_t>(std::count(persons.begin(), persons.end(), -1));
@@ -46,6 +57,7 @@ Take merge_takes(const std::vector<Take>& takes) {
   int start = 0;
   for (const Take& take : takes) {
     check(take, takes.front());
+    add_pose(take, all);
     const std::vector<int> persons = identify(take);
     int last = start;
     for (std::size_t i = 0; i < take.detections.size(); ++i) {

@@ -76,7 +76,7 @@ std::vector<double> densities(const std::vector<Scenelet>& scenelets) {
   return density;
 }
 
-std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigma) {
+std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigma, const Context& context) {
   if (scenelets.empty()) return scenelets;
   const Table motion = motions(scenelets);
   const std::vector<Entry> layout = entries(scenelets);
@@ -84,7 +84,7 @@ std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigm
   const std::vector<double> density = densities(scenelets);
   const Eigen::VectorXd rarity = Eigen::Map<const Eigen::VectorXd>(density.data(), static_cast<Eigen::Index>(density.size())).cwiseInverse();
   const Eigen::RowVectorXd chance = means(rarity.transpose() / rarity.sum(), layout).rightCols(kAll - kOwn);
-  parallel_blocks({}, scenelets.size(), kBlock, [&](std::size_t first, std::size_t end) {
+  parallel_blocks(context, scenelets.size(), kBlock, [&](std::size_t first, std::size_t end) {
     const auto begin = static_cast<Eigen::Index>(first), rows = static_cast<Eigen::Index>(end - first);
     Table weight = -2.0 * motion.middleCols(begin, rows).transpose() * motion;  // becomes squared distances, then G / ρ
     weight.rowwise() += length2;

@@ -16,6 +16,6 @@ std::vector<double> densities(const std::vector<Scenelet>& scenelets);
 /// (h − chance) / (1 − chance). In four recordings of three rooms the median H of sitting is then 0.52 and of walking 0.09, by the thesis'
 /// formula 0.48 and 0.25, for every room has something near. `sigma` is the width of the Gaussian in motion distance, m; of 0.04 to 0.5
 /// the thesis' 13 (as cm) told sitting from walking best there.
-std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigma);
+std::vector<Scenelet> with_saliency(std::vector<Scenelet> scenelets, double sigma, const Context& context);
 
 }  // namespace unseen::interactions

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "interactions/upright.h"
 #include "unseen/core/level.h"
 
 namespace unseen::interactions {
@@ -12,7 +13,6 @@ namespace {
 
 /// An upright torso of usual length tells the depth; foreshortened it looks farther away than it is.
 double depth_of(const Detection& d, const Camera& camera) {
-  constexpr double kTorso = 0.44;  // m, shoulders to hips
   for (const Joint joint : {right_shoulder, left_shoulder, right_hip, left_hip})
     if (d.confidence[joint] < kSeen) return 0;
   const Vec2 torso = 0.5 * (d.pixels.col(right_shoulder) + d.pixels.col(left_shoulder) - d.pixels.col(right_hip) - d.pixels.col(left_hip));

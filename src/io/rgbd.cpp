@@ -99,12 +99,4 @@ RgbdFrame read_rgbd_frame(const std::filesystem::path& path) {
   return frame;
 }
 
-std::vector<std::filesystem::path> files_of_rgbd_frame(const std::filesystem::path& path) {
-  const RgbdFiles files = find_rgbd_files(path);
-  std::vector<std::filesystem::path> all = {files.frame};
-  for (const auto* file : {&files.depth, &files.color, &files.masks, &files.cloud, &files.intrinsics})
-    if (!file->empty()) all.push_back(*file);
-  return all;
-}
-
 }  // namespace unseen::io

@@ -14,6 +14,7 @@
 #include "planes/describe.h"
 #include "planes/doubt.h"
 #include "planes/patches.h"
+#include "planes/remarks.h"
 #include "planes/scale.h"
 #include "planes/select.h"
 #include "unseen/core/error.h"
@@ -49,65 +50,6 @@ void check_not_collinear(const VoxelGrid& grid, const Space& space, const std::s
     throw InputError(name, "points", "all in one line", "points on surfaces");
 }
 
-/// Warns of coordinates that single precision has rounded coarsely, as large ones are that were stored without an offset; false if it has not.
-bool warn_of_single_precision(const Survey& survey, double scale, Context& context) {
-  constexpr double kCoarse = 0.25;  // of the scale
-  const auto farthest = static_cast<float>(std::max(survey.low.cwiseAbs().maxCoeff(), survey.high.cwiseAbs().maxCoeff()));
-  const double step = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
-  const auto single = [](const Vec3& p) { return p == p.cast<float>().cast<double>(); };
-  if (step < kCoarse * scale || !std::all_of(survey.sample.begin(), survey.sample.end(), single)) return false;
-  context.warn(fmt::format("the coordinates, up to {:.7g} m, are rounded to single precision, in steps of {:.2g} m: details below that are lost. "
-                           "Export them in double precision, or less an offset", farthest, step));
-  return true;
-}
-
-/// Warns of text with so few digits that they end far before the details, as "5.6789e+06" does.
-void warn_of_few_digits(const Survey& survey, double scale, Context& context) {
-  constexpr double kCoarse = 0.25;          // of the scale
-  constexpr double kFewSteps = 100, kFar = 1e4;  // of the extent, and of the coordinates: a grid of points has more of these, or is nearer to the origin
-  for (int axis = 0; axis < 3; ++axis) {
-    const double extent = survey.high[axis] - survey.low[axis], farthest = std::max(std::abs(survey.low[axis]), std::abs(survey.high[axis]));
-    const auto comes_in = [&](double step) {
-      return farthest > kFar * step && std::all_of(survey.sample.begin(), survey.sample.end(), [&](const Vec3& p) { return std::abs(p[axis] / step - std::round(p[axis] / step)) < 1e-6; });
-    };
-    double step = std::pow(10.0, std::ceil(std::log10(std::max(kCoarse * scale, extent / kFewSteps))));
-    if (!(extent > 0.0) || !comes_in(step)) continue;
-    while (comes_in(10.0 * step)) step *= 10.0;
-    context.warn(fmt::format("{} comes in steps of {:.4g} m only: digits were lost when it was written. Export more of them, in binary, or less an offset", "xyz"[axis], step));
-  }
-}
-
-/// Warns where an estimated scale leaves most of the points without a plane, or a given one many because they are farther apart.
-void warn_of_few(PointSource& source, const Survey& seen, const Space& space, bool estimated, const Arrangement& result, Context& context) {
-  constexpr double kFew = 0.5, kMany = 0.1, kLarger = 1.5;
-  std::size_t assigned = 0;
-  for (const ArrangedPlane& p : result.planes) assigned += p.points;
-  const double share = static_cast<double>(assigned) / static_cast<double>(seen.finite);
-  if (result.planes.empty() || share > (estimated ? kFew : 1.0 - kMany)) return;
-  if (estimated) {
-    context.warn(fmt::format("only {:.0f} % of the points lie on planes at the estimated scale of {:.3g} m: plants do not; if the scene is made of planes, another "
-                             "scale suits it better (--scale)", 100.0 * share, result.scale));
-  } else if (const double scale = estimate_scale(source, seen, space, context).scale; scale > kLarger * result.scale) {
-    context.warn(fmt::format("{:.0f} % of the points lie on no plane at a scale of {:.3g} m: their spacing and noise ask for {:.3g} m", 100.0 * (1.0 - share),
-                             result.scale, scale));
-  }
-}
-
-/// Warns where planes are at right angles that the angles asked for do not name.
-void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Context& context) {
-  constexpr double kRight = 0.5 * kPi / 180.0, kMany = 0.1;  // of all pairs of area: a third are in a box
-  if (angles.has_right_angle) return;
-  std::vector<double> area(result.directions.size(), 0.0);
-  for (const ArrangedPlane& p : result.planes) area[p.direction] += p.area;
-  double right = 0, all = 0;
-  for (std::size_t a = 0; a < area.size(); ++a)
-    for (std::size_t b = 0; b < a; ++b) {
-      all += area[a] * area[b];
-      if (line_angle(result.directions[a].normal, result.directions[b].normal) > kPi / 2 - kRight) right += area[a] * area[b];
-    }
-  if (right > kMany * all) context.warn("planes at right angles are not related, as the angles asked for do not name 90: add it, as in --angles 60,90");
-}
-
 void record(const Selection& selection, Summary& summary) {
   const Energy &before = selection.before, &after = selection.after;
   summary.energy = {{"before", before.total()},   {"after", after.total()},
@@ -136,6 +78,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   const SourceInfo info = source.info();
   const AngleSet angles = angles_of(options);
   const std::optional<Vec3> viewpoint = viewpoint_of(options, info);
+  const bool estimated = !options.scale && !options.relative_scale;
   for (const double a : options.angles) result.angles.push_back(radians(a));
   result.lambda = options.lambda;
 
@@ -157,9 +100,10 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     result.two_dimensional = space.is_2d();
     if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
     if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
-    if (!options.scale && !options.relative_scale)
+    if (estimated)
       context.message(fmt::format("scale {:.4g} m, estimated from spacing and noise; points may lie {:.4g} m from their plane", result.scale, tolerance));
-    if (!warn_of_single_precision(seen, result.scale, context)) warn_of_few_digits(seen, result.scale, context);
+    warn_of_rounding(seen, result.scale, context);
+    if (estimated) warn_of_units(seen, space, result.scale, context);
     summary.counts = {{"points", seen.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0},
                       {"finite", seen.finite}, {"duplicates", seen.duplicates}};
   }
@@ -231,12 +175,13 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
     for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
     summary.counts[3].second = result.planes.size();
-    warn_of_few(source, seen, space, !options.scale && !options.relative_scale, result, context);
+    warn_of_few(source, seen, space, estimated, result, context);
   }
   Stage stage(context, summary, "relations");
   find_relations(angles, result);
   find_second_order(result);
   tag_planes(result);
+  warn_of_curves(patches, context);
   warn_of_right_angles(result, angles, context);
   context.check();
   summary.counts.emplace_back("frames", result.frames.size());

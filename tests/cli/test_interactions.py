@@ -14,6 +14,7 @@ import jsonschema
 import numpy
 
 from harness import PROGRAM, SOURCE, CliTest, contents
+from scene import scenes_of
 
 FILES = {"result.json", "report.html", "scene.glb", "motion.bvh", "evidence.png"}
 BODY_25 = {0: 11, 1: 10, 2: 9, 3: 12, 4: 13, 5: 14, 10: 4, 11: 3, 12: 2, 13: 5, 14: 6, 15: 7}  # joints that OpenPose sees itself
@@ -132,6 +133,11 @@ class Interactions(CliTest):
         self.assertEqual([len(p["frames"]) for p in result["people"]], [60, 60])
         self.assertEqual([o["superclass"] for o in result["objects"]], ["sit"])
         self.assertTrue((self.folder / "both/motion-1.bvh").exists())
+        first, = scenes_of(self.folder / "both/report.html")
+        self.assertEqual(self.unseen("view", "both").returncode, 0)
+        again, = scenes_of(self.folder / "both/report.html")
+        self.assertEqual(again.header["command"], "unseen interactions take/early.json take/late.json -o both")
+        self.assertEqual(first.buffer, again.buffer)
         other = {**self.take, "camera": {**self.take["camera"], "fx": 900}}
         (self.folder / "take/other.json").write_text(json.dumps(other))
         self.assert_one_line(self.unseen("interactions", "take/early.json", "take/other.json", "-o", "out"), 3, "take/other.json", "camera", "early")

@@ -97,7 +97,6 @@ void read(const Folder& folder, std::string_view text) {
   folder.write("frame.json", text);
   try {
     const RgbdFrame frame = read_rgbd_frame(folder.path);
-    files_of_rgbd_frame(folder.path);
     const auto pixels =
         static_cast<std::size_t>(frame.camera.width) * static_cast<std::size_t>(frame.camera.height);
     bool good =

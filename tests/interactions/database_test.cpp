@@ -170,7 +170,7 @@ TEST(Saliency, DensityIsTheKernelEstimate) {
 
 TEST(Join, IsTheDatabaseOfAllRecordings) {
   const Recording a = simple_recording(4, 6), b = simple_recording(3, 2, 10, "another");
-  const Database both = build({a, b}), joined = join({build({a}), build({b}), build({a})}, {});  // what is there is not taken twice
+  const Database both = build({a, b}), joined = join({build({a}), build({b}), build({a})}, {}, {});  // what is there is not taken twice
   ASSERT_EQ(joined.scenelets.size(), both.scenelets.size());
   ASSERT_EQ(joined.recordings.size(), 2u);
   for (std::size_t i = 0; i < both.scenelets.size(); ++i) {
@@ -180,7 +180,7 @@ TEST(Join, IsTheDatabaseOfAllRecordings) {
   }
 }
 
-TEST(Join, OfNothingIsEmpty) { EXPECT_TRUE(join({}, {}).scenelets.empty()); }
+TEST(Join, OfNothingIsEmpty) { EXPECT_TRUE(join({}, {}, {}).scenelets.empty()); }
 
 }  // namespace
 }  // namespace unseen::interactions

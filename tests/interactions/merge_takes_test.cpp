@@ -53,6 +53,17 @@ TEST(MergeTakes, OfOneTakeIsTheTakeWithItsPeopleTold) {
   }
 }
 
+TEST(MergeTakes, TheCamerasPlaceMayStandInAnyOfThem) {
+  Take a = take_of(5001, 1), b = a;
+  a.up = std::nullopt;
+  a.camera_height = std::nullopt;
+  b.up = Vec3(0, -1, 0);
+  b.camera_height = 1.7;
+  const Take all = merge_takes({a, b});
+  EXPECT_EQ(all.up, b.up);
+  EXPECT_EQ(all.camera_height, b.camera_height);
+}
+
 /// What the caller did wrong, by field.
 std::string refused(const std::vector<Take>& takes) {
   try {
@@ -64,7 +75,9 @@ std::string refused(const std::vector<Take>& takes) {
 }
 
 TEST(MergeTakes, RefuseWhatIsNotOneCamera) {
-  const Take a = take_of(5001, 1);
+  Take a = take_of(5001, 1);
+  a.up = Vec3(0, -1, 0);
+  a.camera_height = 1.7;
   const auto with = [&](const auto& change) {
     Take other = a;
     change(other);
@@ -74,6 +87,8 @@ TEST(MergeTakes, RefuseWhatIsNotOneCamera) {
   EXPECT_EQ(with([](Take& t) { t.camera.fx *= 1.1; }), "camera");
   EXPECT_EQ(with([](Take& t) { t.camera.cy += 30; }), "camera");
   EXPECT_EQ(with([](Take& t) { t.camera.width /= 2; }), "camera");
+  EXPECT_EQ(with([](Take& t) { t.up = Vec3(0, -0.99, -0.1).normalized(); }), "up");
+  EXPECT_EQ(with([](Take& t) { t.camera_height = 1.5; }), "camera_height");
   EXPECT_EQ(with([](Take& t) { t.fps = 25; }), "fps");
   EXPECT_EQ(with([](Take& t) { t.detections.clear(); }), "joints");
   EXPECT_NE(refused({}), "nothing");

@@ -35,7 +35,7 @@ Database database_without(const std::string& room, const std::vector<Recording>&
   for (std::size_t s = 0; s < recordings.size(); ++s)
     if (kScenes[s].room != room) others.push_back(recordings[s]);
   Context context;
-  return join({shipped_database(), build_database(others, {}, context)}, {});
+  return join({shipped_database(), build_database(others, {}, context)}, {}, context);
 }
 
 TEST(RealReconstructions, FindMostOfWhatIsUsed) {

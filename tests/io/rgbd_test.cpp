@@ -107,7 +107,6 @@ TEST_F(Rgbd, EverythingOfAFrameFile) {
   EXPECT_EQ(f.strokes[0].points.at(1), Vec2(7, 5));
   EXPECT_EQ(f.densities.at("box"), 500);
   EXPECT_FALSE(f.is_fused());
-  EXPECT_EQ(files_of_rgbd_frame(file("frame.json")).size(), 4u);
 }
 
 TEST_F(Rgbd, FoldersWithUsualNames) {

@@ -141,12 +141,12 @@ inline Options with_scale(double scale, std::vector<double> angles = {90.0}) {
   return options;
 }
 
-/// A file of the shared scans, beside the project; empty, with a remark, where it is missing.
+inline constexpr const char* kNoScan = "no shared data beside the project: nothing to check";
+
+/// A file of the shared scans, beside the project; empty where it is missing.
 inline std::filesystem::path shared_scan(const std::string& name) {
   const auto file = std::filesystem::path(UNSEEN_SOURCE_DIR) / "../shared/data/planes" / name;
-  if (std::filesystem::exists(file)) return file;
-  std::cout << "no " << name << " beside the project: nothing to check\n";
-  return {};
+  return std::filesystem::exists(file) ? file : std::filesystem::path();
 }
 
 inline PointCloud read_cloud(const std::filesystem::path& file, bool& two_dimensional) {

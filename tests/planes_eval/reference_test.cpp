@@ -12,11 +12,7 @@
 namespace unseen::planes {
 namespace {
 
-bool have_data() {
-  if (std::filesystem::exists(test::data_folder())) return true;
-  std::cout << "no " << test::data_folder() << ": nothing to compare with\n";
-  return false;
-}
+bool have_data() { return std::filesystem::exists(test::data_folder()); }
 
 TruthScore score_lhouse(const std::string& primitives, const std::string& associations) {
   const auto folder = test::data_folder() / "rapter";
@@ -31,7 +27,7 @@ TruthScore score_lhouse(const std::string& primitives, const std::string& associ
 // 0.109°, 88.8 %, 89.2 %. These are the figures of recalled points; over all pairs of them the means are
 // 0.0524° and 0.1028°, and 500 000 drawn pairs scatter by about 0.002°.
 TEST(Reference, OriginalOnLHouse) {
-  if (!have_data()) return;
+  if (!have_data()) GTEST_SKIP() << "no " << test::data_folder() << ": nothing to compare with";
   const AssignmentScore s = score_lhouse("lhouse_out_prims_a.csv", "lhouse_out_assoc_a.csv").as_assigned;
   EXPECT_NEAR(100 * s.recall, 99.76, 0.005);
   EXPECT_NEAR(degrees(s.angles_recalled.mean), 0.051, 0.007);
@@ -39,7 +35,7 @@ TEST(Reference, OriginalOnLHouse) {
 }
 
 TEST(Reference, GlobFitOnLHouse) {
-  if (!have_data()) return;
+  if (!have_data()) GTEST_SKIP() << "no " << test::data_folder() << ": nothing to compare with";
   const AssignmentScore s = score_lhouse("lhouse_globfit_prims.csv", "lhouse_globfit_assoc.csv").as_assigned;
   EXPECT_NEAR(100 * s.recall, 89.2, 0.05);
   EXPECT_NEAR(degrees(s.angles_recalled.mean), 0.109, 0.010);
@@ -68,7 +64,7 @@ std::vector<Plane> fit_each(const std::vector<Vec3>& points, const std::vector<i
 
 // Published beside the data: free fits to the points of each true face give about 0.055° and 88 %.
 TEST(Reference, FreeFitsOnTofRange) {
-  if (!have_data()) return;
+  if (!have_data()) GTEST_SKIP() << "no " << test::data_folder() << ": nothing to compare with";
   const auto folder = test::data_folder() / "rapter";
   const auto points = test::read_points(folder / "tofRange.025.ply");
   const TriangleMesh mesh = test::read_mesh(folder / "tofRange_gt.obj");

@@ -55,7 +55,7 @@ OptionTable describe(SceneletOptions& options);
 Database build_database(const std::vector<Recording>& recordings, const SceneletOptions& options, Context& context);
 
 /// One database of several, each recording once; saliency is computed anew over all.
-Database join(const std::vector<Database>& databases, const SceneletOptions& options);
+Database join(const std::vector<Database>& databases, const SceneletOptions& options, const Context& context);
 
 /// The 14 distances of joints to lines of a pose, m (thesis Section 6.2.2.1): knees to hip–ankle, elbows to shoulder–wrist, hips to
 /// shoulder–knee (each right, left), then knees, ankles, wrists (right, left) and head to pelvis–thorax, and pelvis to ankle–ankle.

@@ -16,10 +16,6 @@ namespace unseen::io {
 /// finite, not positive or at the end of 16 bits become 0 (unknown). Throws InputError (file, field, found, expected).
 RgbdFrame read_rgbd_frame(const std::filesystem::path& path);
 
-/// The files that the frame is read from, the frame file or folder itself first. Throws as read_rgbd_frame() does for
-/// a frame file that is no JSON; does not read the pictures.
-std::vector<std::filesystem::path> files_of_rgbd_frame(const std::filesystem::path& path);
-
 /// "nx,ny,nz,d" or "nx,ny,nz,d,kind", several separated by ";": planes n·p = d in the camera's coordinates.
 /// `source` starts the message of the InputError.
 std::vector<GivenSupport> parse_supports(const std::string& text, const std::string& source);

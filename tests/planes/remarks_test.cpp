@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include "planes/scenes.h"
+#include "unseen/core/random.h"
+
+namespace unseen::planes {
+namespace {
+
+/// Whether a run on this cloud warns in these words.
+bool warned(const PointCloud& cloud, const Options& options, const std::string& words) {
+  const std::vector<std::string> warnings = test::run(cloud, options).result.summary.warnings;
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) { return w.find(words) != std::string::npos; });
+}
+
+PointCloud sphere() {
+  PointCloud cloud;
+  Random random(1);
+  while (cloud.positions.size() < 30'000) {
+    const Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (p.norm() > 0.1 && p.norm() < 1.0) cloud.positions.push_back(2.0 * p.normalized());
+  }
+  return cloud;
+}
+
+/// A prism with walls of equal width around the z axis, m: from 100 on it passes for a cylinder.
+PointCloud prism(int walls) {
+  PointCloud cloud;
+  Random random(2);
+  for (int i = 0; i < 30'000; ++i) {
+    const double turn = 2.0 * kPi / walls, share = random.uniform(0, 1);
+    const int wall = i % walls;
+    const auto corner = [&](int k) { return Vec3(2.0 * std::cos(k * turn), 2.0 * std::sin(k * turn), 0.0); };
+    cloud.positions.push_back((1.0 - share) * corner(wall) + share * corner(wall + 1) + random.uniform(0, 3) * Vec3::UnitZ());
+  }
+  return cloud;
+}
+
+TEST(Curves, AreSaidWhereAllIsCurved) {
+  EXPECT_TRUE(warned(sphere(), {}, "curved"));
+  EXPECT_TRUE(warned(prism(100), {}, "curved"));
+}
+
+TEST(Curves, NoPolygonOfFewWallsIsOne) {
+  for (const int walls : {4, 6, 8, 12}) EXPECT_FALSE(warned(prism(walls), {}, "curved")) << walls;
+}
+
+TEST(Units, AreSaidWhereTheyCanHardlyBeMetres) {
+  PointCloud metres = prism(4), millimetres = metres;
+  for (Vec3& p : millimetres.positions) p *= 1000.0;
+  EXPECT_FALSE(warned(metres, {}, "millimetres"));
+  EXPECT_TRUE(warned(millimetres, {}, "millimetres"));
+  EXPECT_FALSE(warned(millimetres, test::with_scale(80), "millimetres")) << "who gives a scale knows the units";
+}
+
+}  // namespace
+}  // namespace unseen::planes
