@@ -38,7 +38,7 @@ PointCloud prism(int walls) {
 }
 
 TEST(Curves, AreSaidWhereAllIsCurved) {
-  EXPECT_TRUE(warned(sphere(), {}, "curved"));
+  EXPECT_TRUE(warned(sphere(), test::with_scale(0.03), "curved"));
   EXPECT_TRUE(warned(prism(100), {}, "curved"));
 }
 
