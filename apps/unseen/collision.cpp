@@ -32,7 +32,10 @@ struct CollisionArguments {
   collision::Options options;
 };
 
-std::string text_of(const collision::Estimate& e) { return fmt::format("{:.3f} ± {:.3f} (95 %: {:.3f}…{:.3f})", e.value, e.sd, e.low, e.high); }
+std::string text_of(const collision::Estimate& e) {
+  const int digits = e.sd >= 0.001 ? 3 : 4;
+  return fmt::format("{:.{}f} ± {:.{}f} (95 %: {:.{}f}…{:.{}f})", e.value, digits, e.sd, digits, e.low, digits, e.high, digits);
+}
 
 void print_impacts(const collision::Reconstruction& r) {
   if (r.impacts.empty()) {
@@ -40,7 +43,9 @@ void print_impacts(const collision::Reconstruction& r) {
     return;
   }
   const collision::Impact& first = r.impacts.front();
-  if (r.impacts.size() == 1)
+  if (!r.fits)
+    fmt::print("no impact that the model explains; looked for at frame {:.2f} ({:.4f} s)\n", first.frame, first.time);
+  else if (r.impacts.size() == 1)
     fmt::print("one impact, at frame {:.2f} ({:.4f} s)\n", first.frame, first.time);
   else
     fmt::print("{} impacts, the first at frame {:.2f} ({:.4f} s)\n", r.impacts.size(), first.frame, first.time);
@@ -51,7 +56,7 @@ void print_summary(const collision::Reconstruction& r, const CollisionArguments&
   fmt::print("restitution: {}\n", r.restitution ? text_of(*r.restitution) : "no confident value");
   if (r.fixed.empty() && r.bodies.size() == 2)
     fmt::print("mass of {} to {}: {}\n", r.bodies[1].name, r.bodies[0].name, r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
-  if (r.energy_before > 0 && !r.impacts.empty())
+  if (r.restitution)
     fmt::print("kinetic energy: {:.0f} % kept\n", 100.0 * r.energy_after / r.energy_before);
   if (!r.frames.empty())
     fmt::print("{}: {:.2f} px in the frames used{}\n", r.fits ? "the model fits" : "the model does not fit", r.reprojection_rms,

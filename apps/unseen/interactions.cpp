@@ -85,7 +85,7 @@ std::string counted(std::size_t count, const char* one, const char* more) {
 
 void print_summary(const interactions::Reconstruction& r, const InteractionsArguments& args) {
   for (const interactions::FoundObject& found : r.objects) {
-    const Vec3 place = found.object.center();
+    const Vec3 place = report::upright_box(found.object).center;
     fmt::print("{} at {:.2f}, {:.2f} m: confidence {:.2f}, {}\n", found.object.category, place.x(), place.y(), found.confidence,
                counted(found.windows.size(), "window", "windows"));
   }

@@ -69,7 +69,7 @@ void print_summary(const planes::Arrangement& a, const PlanesArguments& args, bo
              plural(a.directions.size(), "direction"));
   fmt::print("{}, {} of {}s related\n", plural(a.relations.size(), "relation"),
              plural(a.plane_relations, "pair"), thing);
-  fmt::print("scale {:.4g} m{}\n", a.scale, estimated ? " (estimated; --scale sets it)" : "");
+  fmt::print("scale {:.4g}{}{}\n", a.scale, a.two_dimensional ? "" : " m", estimated ? " (estimated; --scale sets it)" : "");
   if (a.planes.empty()) fmt::print("nothing found: a smaller or larger --scale may help\n");
   print_place(args.out, args.no_report);
 }

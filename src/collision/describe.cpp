@@ -98,6 +98,25 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
   return remarks;
 }
 
+/// Both solutions tell of the flight between two impacts: from the one to the other, so that nothing jumps.
+BodyState between(const Teller& one, const Teller& next, int o, double time) {
+  const double length = next.state().time - one.state().time, x = (time - one.state().time) / length;
+  const double share = x * x * (3.0 - 2.0 * x), rate = 6.0 * x * (1.0 - x) / length;
+  const BodyState a = one.body_at(o, true, time), b = next.body_at(o, false, time);
+  BodyState s;
+  s.p = (1.0 - share) * a.p + share * b.p;
+  s.v = (1.0 - share) * a.v + share * b.v + rate * (b.p - a.p);
+  s.k = (1.0 - share) * a.k + share * b.k;
+  s.q = a.q.slerp(share, b.q);
+  return s;
+}
+
+/// Whether the flight after one impact is the flight before the next.
+bool is_one_flight(const Teller& one, const Teller& next, const Tracks& tracks, int o) {
+  const std::vector<int>&after = one.impact.meeting.after, &before = next.impact.meeting.before;
+  return std::any_of(after.begin(), after.end(), [&](int s) { return tracks.spans[s].body == o && std::count(before.begin(), before.end(), s) > 0; });
+}
+
 void add_frames(const std::vector<Teller>& tellers, const Tracks& tracks, const FrameClock& clock, Reconstruction& result) {
   const auto time_of = [&](std::size_t i) { return tellers[i].state().time; };
   for (int frame = clock.first(); frame <= clock.last(); ++frame) {
@@ -109,13 +128,17 @@ void add_frames(const std::vector<Teller>& tellers, const Tracks& tracks, const 
       if (std::abs(time_of(i) - time) < std::abs(time_of(nearest) - time)) nearest = i;
     const Teller& teller = tellers[nearest];
     const bool after = time > teller.state().time;
+    const std::size_t other = after ? nearest + 1 : nearest - 1;  // the impact on the other side, if there is one
     for (int o = 0; o < (teller.problem().fixed ? 1 : 2); ++o) {
       const std::vector<int>& spans = after ? teller.impact.meeting.after : teller.impact.meeting.before;
       const bool seen = std::any_of(spans.begin(), spans.end(), [&](int s) {
         const FlightSpan& span = tracks.spans[s];
         return span.body == o && (after ? tracks.points[span.end - 1].frame >= frame : tracks.points[span.begin].frame <= frame);
       });
-      if (seen) pose.bodies[o] = teller.body_at(o, after, time);
+      if (!seen) continue;
+      const Teller *one = &teller, *next = other < tellers.size() ? &tellers[other] : nullptr;
+      if (!after) std::swap(one, next);
+      pose.bodies[o] = one && next && is_one_flight(*one, *next, tracks, o) ? between(*one, *next, o, time) : teller.body_at(o, after, time);
     }
     if (pose.bodies[0] || pose.bodies[1]) result.frames.push_back(pose);
   }

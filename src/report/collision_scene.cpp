@@ -22,7 +22,7 @@ void add_value_table(SceneBuilder& scene, const Reconstruction& r) {
   Json rows = Json::array();
   if (r.restitution) rows.push_back(row_of("restitution", *r.restitution));
   if (r.mass_ratio) rows.push_back(row_of(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), *r.mass_ratio));
-  if (r.energy_before > 0) {
+  if (r.restitution) {
     const auto energy = [&](const char* when, double value) { rows.push_back({fmt::format("energy {}, J/kg", when), number(value), nullptr, nullptr, nullptr}); };
     energy("before", r.energy_before);
     energy("after", r.energy_after);
@@ -31,6 +31,12 @@ void add_value_table(SceneBuilder& scene, const Reconstruction& r) {
 }
 
 void add_impact_table(SceneBuilder& scene, const Reconstruction& r) {
+  if (!r.fits) {  // what the solver ended with says when, and nothing else
+    Json rows = Json::array();
+    for (const Impact& i : r.impacts) rows.push_back({number(i.frame), number(i.time)});
+    add_table(scene, "Impacts looked for: the model does not fit", {column("frame", "", 2), column("time", "s", 4)}, std::move(rows));
+    return;
+  }
   Json rows = Json::array();
   for (const Impact& i : r.impacts)
     rows.push_back({number(i.frame), number(i.time), number(i.restitution.value), number(i.restitution.low), number(i.restitution.high),
@@ -42,6 +48,7 @@ void add_impact_table(SceneBuilder& scene, const Reconstruction& r) {
 }
 
 void add_body_table(SceneBuilder& scene, const Reconstruction& r) {
+  if (r.impacts.empty() || !r.fits) return;
   Json rows = Json::array();
   for (const BodyResult& b : r.bodies) {
     if (b.fixed) continue;
@@ -63,18 +70,19 @@ void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
   add_table(scene, "What the clip tells", {column("remark")}, std::move(weak));
 }
 
-std::string text_of(const Estimate& e) { return fmt::format("{:.3f} ± {:.3f}", e.value, e.sd); }
+/// With as many digits as the deviation has to say something with, three at least.
+std::string text_of(const Estimate& e) { return e.sd >= 0.001 ? fmt::format("{:.3f} ± {:.3f}", e.value, e.sd) : fmt::format("{:.4f} ± {:.4f}", e.value, e.sd); }
 
 Json facts_of(const Reconstruction& r) {
   Json facts = Json::array();
   const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
   fact("restitution", r.restitution ? text_of(*r.restitution) : "no confident value");
-  if (r.fixed.empty()) fact("mass ratio", r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
+  if (r.fixed.empty() && r.bodies.size() == 2) fact(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
   if (!r.frames.empty()) fact("the model fits", r.fits ? "yes" : "no");
   if (!r.ambiguous.empty()) fact("ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"));
-  fact("impacts", std::to_string(r.impacts.size()));
-  if (!r.impacts.empty()) fact("first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
-  if (r.energy_before > 0) fact("kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
+  if (r.fits || r.impacts.empty()) fact("impacts", std::to_string(r.impacts.size()));
+  if (!r.impacts.empty() && r.fits) fact("first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
+  if (r.restitution) fact("kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
   if (r.reprojection_rms > 0) fact("reprojection", fmt::format("{:.2f} px", r.reprojection_rms));
   if (r.held_out_rms > 0) fact("held-out frames", fmt::format("{:.2f} px", r.held_out_rms));
   if (r.drag) fact("drag", fmt::format("{:.4g} 1/m", *r.drag));
@@ -100,6 +108,7 @@ std::string collision_scene(const Reconstruction& r, const InputRecord& input, c
   Json& header = scene.header;
   header["title"] = collision_title(input);
   write_run(scene, "collision", command, r.summary, options, input);
+  if (!r.restitution) header["verdict"] = r.impacts.empty() ? "no collision was found" : "no value of the restitution can be relied on";
   header["inside"] = false;
   if (const auto focus = focus_of(r)) header["focus"] = *focus;
   header["facts"] = facts_of(r);

@@ -84,7 +84,7 @@ void add_flights(SceneBuilder& scene, const Reconstruction& r, double gravity) {
 }
 
 void add_impacts(SceneBuilder& scene, const Reconstruction& r) {
-  if (r.impacts.empty()) return;
+  if (r.impacts.empty() || !r.fits) return;
   std::vector<Vec3> origins, vectors;
   std::vector<int> kind;
   for (const Impact& impact : r.impacts) {

@@ -37,7 +37,7 @@ void add_box_table(SceneBuilder& scene, const Completion& c) {
   scene.header["tables"].push_back({{"title", "Boxes"},
                                     {"structure", "boxes"},
                                     {"columns",
-                                     {column("box"), column("size", "cm"), column("seen", "cm"), column("remark"),
+                                     {column("box"), column("size", "cm"), column("as fitted", "cm"), column("remark"),
                                       column("mass", "kg", 2), column("points")}},
                                     {"rows", std::move(rows)}});
 }
@@ -111,6 +111,7 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
   Json& header = scene.header;
   header["title"] = cuboids_title(input);
   write_run(scene, "cuboids", command, c.summary, options, input);
+  if (c.cuboids.empty()) header["verdict"] = "no box was found";
   header["inside"] = false;
   if (!c.cuboids.empty()) header["focus"] = focus_of(c);
   header["facts"] = facts_of(c, options);

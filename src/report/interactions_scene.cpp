@@ -19,13 +19,18 @@ double seconds_of(const Reconstruction& r, int frame) {
   return frame / r.fps;
 }
 
-/// "2.4–5.1, 7–8.2", in seconds.
+/// "2.4–5.1, 7.0–8.2", in seconds; windows that follow each other are one stretch.
 std::string spans_of(const Reconstruction& r, const std::vector<int>& windows) {
-  std::string text;
-  for (const int w : windows) {
-    const Window& window = r.windows[static_cast<std::size_t>(w)];
-    text += fmt::format("{}{:.1f}–{:.1f}", text.empty() ? "" : ", ", seconds_of(r, window.first), seconds_of(r, window.last));
+  std::vector<std::array<int, 2>> spans;  // of frames
+  for (const int w : windows) spans.push_back({r.windows[static_cast<std::size_t>(w)].first, r.windows[static_cast<std::size_t>(w)].last});
+  std::sort(spans.begin(), spans.end());
+  std::vector<std::array<int, 2>> joined;
+  for (const auto& span : spans) {
+    if (!joined.empty() && span[0] <= joined.back()[1] + 1) joined.back()[1] = std::max(joined.back()[1], span[1]);
+    else joined.push_back(span);
   }
+  std::string text;
+  for (const auto& [first, last] : joined) text += fmt::format("{}{:.1f}–{:.1f}", text.empty() ? "" : ", ", seconds_of(r, first), seconds_of(r, last));
   return text;
 }
 
@@ -33,12 +38,12 @@ void add_object_table(SceneBuilder& scene, const Reconstruction& r) {
   Json rows = Json::array();
   for (const FoundObject& found : r.objects) {
     const OrientedBox box = upright_box(found.object);
-    const Vec3 place = found.object.center(), size = 2.0 * box.half_size;
-    rows.push_back({found.object.category, number(found.confidence), spans_of(r, found.windows), fmt::format("{:.2f}, {:.2f}", place.x(), place.y()),
-                    fmt::format("{:.2f} × {:.2f} × {:.2f}", size.x(), size.y(), size.z()), found.object.id});
+    const Vec3 size = 2.0 * box.half_size;
+    rows.push_back({found.object.category, number(found.confidence), fmt::format("{:.2f}, {:.2f}", box.center.x(), box.center.y()),
+                    fmt::format("{:.2f} × {:.2f} × {:.2f}", size.x(), size.y(), size.z()), found.object.id, spans_of(r, found.windows)});
   }
   add_table(scene, "Objects",
-            {column("category"), column("confidence", "", 2), column("windows", "s"), column("place", "m"), column("size", "m"), column("id")},
+            {column("category"), column("confidence", "", 2), column("place", "m"), column("size", "m"), column("id"), column("in use", "s")},
             std::move(rows), "objects");
 }
 
@@ -91,7 +96,7 @@ Json facts_of(const Reconstruction& r) {
   }
   fact("objects", std::to_string(r.objects.size()));
   fact("people", std::to_string(r.people.size()));
-  fact("interactions", std::to_string(r.windows.size()));
+  fact("windows with an interaction", std::to_string(r.windows.size()));
   if (frames > 0) {
     const double all = static_cast<double>(frames);
     fact("poses", std::to_string(frames));
@@ -118,6 +123,7 @@ std::string interactions_scene(const Reconstruction& r, const InputRecord& input
   Json& header = scene.header;
   header["title"] = interactions_title(input);
   write_run(scene, "interactions", command, r.summary, options, input);
+  if (r.objects.empty()) header["verdict"] = "no furniture was found: nobody was seen to use any";
   header["inside"] = false;
   if (const Eigen::AlignedBox3d reach = reach_of(r); !reach.isEmpty()) header["focus"] = focus_of(reach);
   header["facts"] = facts_of(r);

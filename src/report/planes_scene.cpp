@@ -15,22 +15,33 @@ namespace {
 
 using planes::Arrangement;
 
-void add_table(SceneBuilder& scene, const Arrangement& a) {
+/// Lengths of drawings are in units of their own, as pixels.
+constexpr const char* unit_of_length(const Arrangement& a) { return a.two_dimensional ? "" : "m"; }
+
+/// Offsets are those in the page's coordinates: of world coordinates far away, normals have too few digits to go with them.
+void add_table(SceneBuilder& scene, const Arrangement& a, const Vec3& shift) {
+  const bool flat = a.two_dimensional;
   Json rows = Json::array();
   for (std::size_t p = 0; p < a.planes.size(); ++p) {
     const planes::ArrangedPlane& plane = a.planes[p];
     const Vec3& n = plane.plane.normal;
-    rows.push_back({p, plane.tag, plane.frame, plane.direction, number(n.x()), number(n.y()), number(n.z()),
-                    number(plane.plane.offset), number(plane.area), plane.points, number(1000.0 * plane.rms)});
+    Json row = {p};
+    if (!flat) row.push_back(plane.tag);
+    for (const Json& cell : Json{number(plane.area), plane.points, number(flat ? plane.rms : 1000.0 * plane.rms), plane.frame, plane.direction, number(n.x()), number(n.y())}) row.push_back(cell);
+    if (!flat) row.push_back(number(n.z()));
+    row.push_back(number(plane.plane.offset - n.dot(shift)));
+    rows.push_back(std::move(row));
   }
-  const bool flat = a.two_dimensional;
+  Json columns = {column(flat ? "line" : "plane")};
+  if (!flat) columns.push_back(column("tag"));
+  for (const Json& c : Json{column(flat ? "length" : "area", flat ? "" : "m²", 3), column("points"), column("rms", flat ? "" : "mm", 2), column("frame"), column("direction"),
+                            column("normal x", "", 4), column("normal y", "", 4)}) columns.push_back(c);
+  if (!flat) columns.push_back(column("normal z", "", 4));
+  columns.push_back(column(shift.isZero() ? "offset" : "offset, from the page's origin", unit_of_length(a), 3));
   scene.header["tables"].push_back(
       {{"title", flat ? "Lines" : "Planes"},
        {"structure", "planes"},
-       {"columns",
-        {column(flat ? "line" : "plane"), column("tag"), column("frame"), column("direction"), column("normal x", "", 4),
-         column("normal y", "", 4), column("normal z", "", 4), column("offset", "m", 3),
-         column(flat ? "length" : "area", flat ? "m" : "m²", 3), column("points"), column("rms", "mm", 2)}},
+       {"columns", std::move(columns)},
        {"rows", std::move(rows)}});
 }
 
@@ -49,7 +60,7 @@ Json facts_of(const Arrangement& a) {
           fact("directions", std::to_string(a.directions.size())), fact("relations", std::to_string(a.relations.size())),
           fact("related pairs of " + things, grouped(a.plane_relations)), fact("points", grouped(points)),
           fact("points explained", points > 0 ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(assigned) / static_cast<double>(points)) : "–"),
-          fact("scale", fmt::format("{:.4g} m", a.scale))};
+          fact("scale", fmt::format("{:.4g} {}", a.scale, unit_of_length(a)))};
 }
 
 /// The box that all but half a percent of the points on planes lie in, along each axis and at each end.
@@ -92,6 +103,7 @@ std::string planes_scene(const Arrangement& a, const InputRecord& input, const O
   Json& header = scene.header;
   header["title"] = planes_title(a, input);
   write_run(scene, "planes", command, a.summary, options, input);
+  if (a.planes.empty()) header["verdict"] = a.two_dimensional ? "no line was found" : "no plane was found: a smaller or larger --scale may help";
   header["flat"] = planes::flat_axis(a) == 2;  // the page looks at it from above
   if (const auto focus = focus_of(points, offset)) header["focus"] = *focus;
   if (const auto inside = is_inside(a)) header["inside"] = *inside;
@@ -101,7 +113,7 @@ std::string planes_scene(const Arrangement& a, const InputRecord& input, const O
   if (!points.positions.empty()) add_points(scene, a, points);
   add_relations(scene, a);
   add_normals(scene, a, points);
-  add_table(scene, a);
+  add_table(scene, a, offset);
   return scene.encode();
 }
 

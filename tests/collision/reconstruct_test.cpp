@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "collision/describe.h"
@@ -10,6 +11,7 @@
 #include "collision/tracks.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
+#include "unseen/core/random.h"
 
 namespace unseen::collision {
 namespace {
@@ -50,6 +52,24 @@ TEST(Reconstruct, ReadsTheRestitutionOfABouncingBall) {
   EXPECT_EQ(r.fixed, "floor");
   EXPECT_TRUE(r.fits);
   EXPECT_FALSE(r.mass_ratio);
+}
+
+TEST(Reconstruct, FlightsBetweenTwoImpactsHaveNoJump) {
+  Shot shot = bouncing_ball(0.7, 120);
+  Random random(3);
+  for (Sighting& s : shot.observations) s.pixel += Vec2(0.5 * random.normal(), 0.5 * random.normal());
+  Context context;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  ASSERT_GE(r.impacts.size(), 3u);
+  const double step = 1.0 / *shot.fps;
+  for (std::size_t i = 2; i < r.frames.size(); ++i) {
+    const FramePose &before = r.frames[i - 2], &middle = r.frames[i - 1], &after = r.frames[i];
+    if (!before.bodies[0] || !middle.bodies[0] || !after.bodies[0] || after.frame != before.frame + 2) continue;
+    if (std::any_of(r.impacts.begin(), r.impacts.end(), [&](const Impact& hit) { return hit.time >= before.time && hit.time <= after.time; })) continue;
+    const Vec3 bend = before.bodies[0]->p - 2.0 * middle.bodies[0]->p + after.bodies[0]->p;
+    EXPECT_LT((bend - step * step * 9.81 * r.gravity_direction).norm(), 0.005) << "frame " << middle.frame;
+    EXPECT_LT((after.bodies[0]->p - before.bodies[0]->p - 2.0 * step * middle.bodies[0]->v).norm(), 0.005) << "frame " << middle.frame;
+  }
 }
 
 TEST(Reconstruct, FastSpinsWhoseOrientationsAreBetterThanTold) {

@@ -119,10 +119,23 @@ export class App {
     this.emit('before');
   }
 
-  get timeRange(): { start: number; end: number; rate: number } | null {
+  /** When something moves, s, and the shortest frame time. */
+  get timeRange(): { start: number; end: number; rate: number; step: number } | null {
     const ranges = this.scenes.flatMap((s) => (s.model?.header.time ? [s.model.header.time] : []));
     if (ranges.length === 0) return null;
-    return { start: Math.min(...ranges.map((r) => r.start)), end: Math.max(...ranges.map((r) => r.end)), rate: Math.min(...ranges.map((r) => r.rate ?? 1)) };
+    const start = Math.min(...ranges.map((r) => r.start)), end = Math.max(...ranges.map((r) => r.end));
+    const frames = Math.max(0, ...this.scenes.flatMap((s) => (s.model?.structures ?? []).map((t) => ('times' in t && t.times ? t.times.count : 0))));
+    return { start, end, rate: Math.min(...ranges.map((r) => r.rate ?? 1)), step: (end - start) / (frames > 1 ? frames - 1 : 50) };
+  }
+
+  /** What a scene is called: its title, with the options in which it differs from others of the same title. */
+  titleOf(view: SceneView): string {
+    const header = view.model?.header;
+    if (!header) return 'not readable';
+    const others = this.scenes.flatMap((s) => (s !== view && s.model?.header.title === header.title ? [s.model.header] : []));
+    const text = (value: unknown) => (value === null || value === undefined ? 'not set' : typeof value === 'object' ? JSON.stringify(value) : String(value));
+    const own = (header.options ?? []).filter((o) => others.some((other) => text(other.options?.find((x) => x.name === o.name)?.value) !== text(o.value)));
+    return [header.title, ...own.slice(0, 2).map((o) => `${o.name.replace(/_/g, ' ')} ${text(o.value)}`)].join(' · ');
   }
 
   setTime(t: number) {

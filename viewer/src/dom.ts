@@ -52,7 +52,10 @@ export function iconButton(name: string, label: string, onclick: () => void, pro
 
 export function number(value: number, digits?: number): string {
   if (!Number.isFinite(value)) return '–';
-  if (digits !== undefined) return value.toFixed(digits);
+  if (digits !== undefined) {
+    const text = value.toFixed(digits);
+    return Number(text) === 0 ? text.replace('-', '') : text;
+  }
   if (Number.isInteger(value)) return grouped(value);
   return String(Number(value.toPrecision(4)));
 }

@@ -152,6 +152,8 @@ export interface Header {
   focus?: { low: number[]; high: number[] };
   inside?: boolean;
   facts?: { name: string; value: string }[];
+  /** What a status other than 'solved' means here. */
+  verdict?: string;
   summary?: Summary;
   options?: OptionValue[];
   input?: { path?: string; sha256?: string };

@@ -19,7 +19,7 @@ export function addKeyboard(app: App, help: HTMLDialogElement) {
     d: () => app.setDark(!app.dark),
     l: () => click('.stage .layers summary'),
     b: () => app.setBefore(app.before > 0.5 ? 0 : 1),
-    p: () => void exportPng(app),
+    p: () => app.viewports.length > 0 && void exportPng(app),
     '?': () => help.showModal(),
     '+': () => app.rig.zoom(0.85),
     '=': () => app.rig.zoom(0.85),
@@ -53,7 +53,7 @@ export function addKeyboard(app: App, help: HTMLDialogElement) {
       for (const v of app.viewports) v.moving();
       if (time && arrow[0] !== 0 && !e.shiftKey) {
         app.setPlaying(false);
-        app.setTime(app.time + (arrow[0] * (time.end - time.start)) / 50);
+        app.setTime(app.time + arrow[0] * time.step);
       } else if (e.shiftKey || app.rig.flat) app.rig.pan(-arrow[0] * 0.12, arrow[1] * -0.12 * -1 * -1);
       else app.rig.orbit(-arrow[0] * 0.12, arrow[1] * 0.08);
       return;

@@ -171,10 +171,19 @@ export class Model {
     return null;
   }
 
+  /** The name that the table gives an element in its first column, as for "box 6 (2)" and "ground 0". */
+  givenName(selection: Selection): string | undefined {
+    const table = this.table(selection.structure);
+    const cell = table && /^(name|box|support|body)$/i.test(table.columns[0]?.name ?? '') ? table.rows[selection.index]?.[0] : undefined;
+    return typeof cell === 'string' && cell !== '' ? cell : undefined;
+  }
+
   /** What an element is called. */
   nameOf(selection: Selection): string {
     const s = this.get(selection.structure);
     if (!s) return '';
+    const given = this.givenName(selection);
+    if (given) return `${given[0]!.toUpperCase()}${given.slice(1)}`;
     if (s.kind === 'graph') return s.node_names[selection.index] ?? `node ${selection.index}`;
     const kind = s.element ?? { points: 'point', planes: 'plane', lines: 'line', boxes: 'box', normals: 'direction', trajectory: 'body',
                    skeleton: 'person', camera: 'camera', image: 'image', mesh: 'vertex', arrows: 'arrow', floor: 'floor' }[s.kind];

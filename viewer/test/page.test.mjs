@@ -179,7 +179,7 @@ test('time: play, step, and the image follows', async () => {
   await page.evaluate(() => window.unseen.setTime(0));
   await page.locator('.stage canvas').focus();
   await page.keyboard.press('ArrowRight');
-  assert.match(await page.locator('output[for=time]').innerText(), /0\.040 s/);
+  assert.match(await page.locator('output[for=time]').innerText(), /0\.033 s/, 'by one frame of the motion');
   await page.keyboard.press(' ');
   await page.waitForTimeout(400);
   await page.keyboard.press(' ');
@@ -230,6 +230,47 @@ test('an object of several boxes is one, and leads to the stretch of the chart t
   // The curve has a gap where there is no number.
   assert.equal((await page.locator('svg.chart path').getAttribute('d')).match(/M/g).length, 2);
   assert.deepEqual(errors, []);
+  await close();
+});
+
+test('elements go by the names of their table, also what carries them and is none', async () => {
+  const { page, errors, close } = await open(browser, 'named', pageOf('named', [cuboidsScene({ named: true })]));
+  await page.locator('tr[data-row="0"]').first().click();
+  assert.match(await page.locator('.selection h3').innerText(), /^Box 6 · table/);
+  const chips = await page.locator('.selection .chip').allInnerTexts();
+  assert.deepEqual(chips.sort(), ['box 7', 'box 8', 'ground 0']);
+  assert.deepEqual(errors, []);
+  await close();
+});
+
+test('a table of nothing in the scene selects nothing, and scrolls by keys', async () => {
+  const { page, close } = await open(browser, 'dead', pageOf('dead', [cuboidsScene({ named: true })]));
+  const contacts = page.locator('.table-scroll').nth(1);
+  assert.ok(!/select/.test(await contacts.getAttribute('aria-label')));
+  assert.ok(!/-0\.0/.test(await contacts.innerText()), 'no minus before a zero');
+  await contacts.focus();
+  await page.keyboard.press('End');
+  await page.waitForFunction(() => document.querySelectorAll('.table-scroll')[1].scrollTop > 100);
+  await page.locator('.table-scroll').nth(1).locator('tr[data-row="58"]').click();
+  assert.equal(await selection(page), null);
+  await close();
+});
+
+test('scenes of one title are told apart by the options that differ; what is not set has no unit', async () => {
+  const at = (value) => cuboidsScene({ options: [{ name: 'gap', value, unit: 'm' }, { name: 'fill', value: 0.7, unit: '1' }, { name: 'noise', value: null, unit: 'm' }] });
+  const { page, close } = await open(browser, 'options', pageOf('two', [at(0.01), at(0.02)]));
+  assert.deepEqual(await page.locator('.stage-label').allInnerTexts(), ['ABoxes of frame.json · gap 0.01', 'BBoxes of frame.json · gap 0.02']);
+  await page.getByRole('tab', { name: 'How it was made' }).click();
+  assert.deepEqual(await page.locator('.options b').allInnerTexts(), ['0.01 m', '0.7', 'not set']);
+  await close();
+});
+
+test('a printed page has every row of its tables', async () => {
+  const { page, close } = await open(browser, 'print', pageOf('print', [cuboidsScene({ named: true })]));
+  await page.emulateMedia({ media: 'print' });
+  await page.waitForFunction(() => document.querySelectorAll('.table-scroll')[1].querySelectorAll('tbody tr[data-row]').length === 60);
+  const box = await page.locator('.table-scroll').nth(1).evaluate((e) => [e.clientHeight, e.scrollHeight]);
+  assert.ok(box[0] >= 60 * 30 && box[0] === box[1], String(box));
   await close();
 });
 

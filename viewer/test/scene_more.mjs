@@ -74,22 +74,25 @@ export function collisionScene() {
   }), b);
 }
 
-export function cuboidsScene() {
+/** `named`: boxes have names of their own, a ground that is no box carries the first, and a table is of no structure. */
+export function cuboidsScene({ named = false, options = [] } = {}) {
   const b = new Buffers();
   const boxes = [[0, 0, 0.35, 1.6, 0.9, 0.7, 0], [-0.4, 0.1, 0.85, 0.5, 0.4, 0.3, 0.3], [0.45, -0.1, 0.9, 0.3, 0.3, 0.4, -0.2], [-0.35, 0.1, 1.1, 0.3, 0.3, 0.2, 0.6]];
   const q = (a) => [Math.cos(a / 2), 0, 0, Math.sin(a / 2)];
   const carries = [[0, 1], [0, 2], [1, 3]];
   const names = ['table', 'crate', 'tin', 'parcel'];
   return encodeScene(base('Boxes of frame.json', 'cuboids', {
-    facts: [{ name: 'boxes', value: '4' }],
+    facts: [{ name: 'boxes', value: '4' }], options,
     structures: [
       { id: 'boxes', kind: 'boxes', name: 'Boxes', visible: true, centers: b.plain(boxes.flatMap((x) => x.slice(0, 3)), 3), rotations: b.plain(boxes.flatMap((x) => q(x[6])), 4), sizes: b.plain(boxes.flatMap((x) => x.slice(3, 6)), 3),
         seen: b.plain(boxes.flatMap((x) => [-x[3] / 2, -x[4] / 2, -x[5] * 0.1, x[3] / 2, x[4] * 0.1, x[5] / 2]), 6),
         before: { centers: b.plain(boxes.flatMap((x) => [x[0] + 0.05, x[1], x[2] + 0.06]), 3), rotations: b.plain(boxes.flatMap((x) => q(x[6] + 0.1)), 4), sizes: b.plain(boxes.flatMap((x) => x.slice(3, 6).map((s) => 0.9 * s)), 3) } },
-      { id: 'support', kind: 'graph', name: 'Who carries whom', visible: true, node_names: names, edges: b.plain(carries.flat(), 2, 'u32'), edge_names: carries.map(() => 'supports'),
-        elements: { structure: 'boxes', of_node: [[0], [1], [2], [3]] }, positions: b.plain(boxes.flatMap((x) => x.slice(0, 3)), 3), vectors: b.plain([0, 0, 5, 0, 0, 2, 0, 0, 1], 3) },
+      { id: 'support', kind: 'graph', name: 'Who carries whom', visible: true, node_names: named ? [...names, 'ground 0'] : names, edges: b.plain((named ? [...carries, [4, 0]] : carries).flat(), 2, 'u32'), edge_names: (named ? [...carries, 0] : carries).map(() => 'supports'),
+        elements: { structure: 'boxes', of_node: named ? [[0], [1], [2], [3], []] : [[0], [1], [2], [3]] }, positions: b.plain((named ? [...boxes, [0, 0, 0]] : boxes).flatMap((x) => x.slice(0, 3)), 3),
+        vectors: b.plain([0, 0, 5, 0, 0, 2, 0, 0, 1, ...(named ? [0, 0, 8] : [])], 3) },
     ],
-    tables: [{ title: 'Boxes', structure: 'boxes', columns: [{ name: 'box' }, { name: 'name' }, { name: 'height', unit: 'm', digits: 2 }], rows: boxes.map((x, i) => [i, names[i], x[5]]) }],
+    tables: [{ title: 'Boxes', structure: 'boxes', columns: [{ name: 'box' }, { name: 'name' }, { name: 'height', unit: 'm', digits: 2 }], rows: boxes.map((x, i) => [named ? `box ${i + 6}` : i, names[i], x[5]]) },
+      ...(named ? [{ title: 'Contacts', columns: [{ name: 'from' }, { name: 'force', unit: 'N', digits: 1 }], rows: Array.from({ length: 60 }, (_, i) => [`box ${i}`, -0.001 * i]) }] : [])],
   }), b);
 }
 

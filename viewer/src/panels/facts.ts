@@ -11,7 +11,7 @@ export function nameIn(view: SceneView, selection: Selection): string {
   const model = view.model!;
   const table = model.table(selection.structure);
   const tag = table?.columns.findIndex((c) => /^(tag|name|class|kind|category)$/i.test(c.name)) ?? -1;
-  const text = tag >= 0 ? table!.rows[selection.index]?.[tag] : undefined;
+  const text = tag > 0 || !model.givenName(selection) ? table?.rows[selection.index]?.[tag] : undefined;
   return model.nameOf(selection) + (text ? ` · ${text}` : '');
 }
 
@@ -39,10 +39,12 @@ export function factsOf(app: App, view: SceneView): HTMLElement | null {
   // Grouped by the name of the relation.
   const groups = new Map<string, Selection[]>();
   for (const [id, map] of view.relations) {
-    const kind = model.get(id)?.kind;
-    if (kind === 'normals' || (kind === 'graph' && structure.kind !== 'graph')) continue;
+    const related = model.get(id);
+    if (related?.kind === 'normals') continue;
     for (const [index, name] of map) {
       if (id === selection.structure && index === selection.index) continue;
+      // A node says it all for itself only where no elements do, as what carries boxes and is no box.
+      if (related?.kind === 'graph' && structure.kind !== 'graph' && (!related.elements || related.elements.of_node[index]?.length)) continue;
       const label = name === 'selected' ? 'stands for' : name;
       groups.set(label, [...(groups.get(label) ?? []), { structure: id, index }]);
     }
@@ -51,7 +53,7 @@ export function factsOf(app: App, view: SceneView): HTMLElement | null {
     h('span', { class: 'relation-name' }, h('i', { class: 'swatch', style: `background:${css(relationColor(model, name === 'stands for' ? 'selected' : name))}` }), name, h('span', { class: 'count' }, String(members.length))),
     h('div', { class: 'chips' },
       ...members.slice(0, kMostChips).map((m) => h('button', { type: 'button', class: 'chip', title: nameIn(view, m), onclick: () => app.select(m, app.scenes.indexOf(view)) },
-        model.get(m.structure)!.kind === 'graph' ? model.nameOf(m) : String(m.index))),
+        model.get(m.structure)!.kind === 'graph' ? model.nameOf(m) : (model.givenName(m) ?? String(m.index)))),
       members.length > kMostChips && h('span', { class: 'quiet' }, `and ${members.length - kMostChips} more`))));
   return h('section', { class: 'selection', 'aria-label': 'Selected' },
     h('header', {}, h('h3', {}, nameIn(view, selection)),

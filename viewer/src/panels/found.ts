@@ -18,10 +18,7 @@ export function foundPanel(app: App, view: SceneView): HTMLElement {
   };
   app.on('selection', show, selected);
   queueMicrotask(show);
-  const notes = [
-    ...(summary?.status && summary.status !== 'solved' ? [`Status: ${summary.status.replace(/_/g, ' ')}`] : []),
-    ...(summary?.warnings ?? []),
-  ];
+  const notes = [...(summary?.status && summary.status !== 'solved' ? [header.verdict ?? `Status: ${summary.status.replace(/_/g, ' ')}`] : []), ...(summary?.warnings ?? [])];
   return h('div', { class: 'panel-body' },
     selected,
     header.facts?.length ? h('dl', { class: 'facts' }, ...header.facts.map((f) => h('div', {}, h('dt', {}, f.name), h('dd', {}, f.value)))) : null,

@@ -46,7 +46,10 @@ function legendOf(view: SceneView, layer: Layer): { key: string; element: HTMLEl
 }
 
 export function legend(app: App, view: SceneView): HTMLElement {
-  const card = h('div', { class: 'card legend', 'aria-label': 'Legend' });
+  // Where there is room its heading is not needed; on a phone it is folded.
+  const wide = matchMedia('(min-width: 800px)').matches;
+  const body = h('div', { class: 'legend-body' });
+  const card = h('details', { class: 'card legend', 'aria-label': 'Legend', open: wide }, h('summary', {}, 'Legend'), body);
   const draw = () => {
     const parts = new Map<string, HTMLElement>();
     for (const layer of view.viewport!.layers.values()) {
@@ -55,7 +58,7 @@ export function legend(app: App, view: SceneView): HTMLElement {
       if (part) parts.set(part.key, part.element);
     }
     card.hidden = parts.size === 0;
-    card.replaceChildren(...[...parts.values()].slice(0, 3));
+    body.replaceChildren(...[...parts.values()].slice(0, 3));
   };
   app.on('layers', draw);
   draw();

@@ -31,6 +31,11 @@ async function copyText(text: string, button: HTMLButtonElement) {
   window.setTimeout(() => (button.textContent = before), 1500);
 }
 
+function optionText(value: unknown, unit: string | undefined): string {
+  if (value === null || value === undefined || value === '') return 'not set';
+  return (typeof value === 'object' ? JSON.stringify(value) : String(value)) + (unit && unit !== '1' ? ` ${unit}` : '');
+}
+
 export function madePanel(_app: App, view: SceneView): HTMLElement {
   const header = view.model!.header;
   const { summary, options, input, command } = header;
@@ -45,7 +50,7 @@ export function madePanel(_app: App, view: SceneView): HTMLElement {
       : null,
     options?.length
       ? h('section', { class: 'block' }, h('h3', {}, 'Options'), h('ul', { class: 'options' }, ...options.map((o) => h('li', {},
-          h('div', {}, h('code', {}, o.name), h('b', {}, `${typeof o.value === 'object' ? JSON.stringify(o.value) : String(o.value)}${o.unit ? ` ${o.unit}` : ''}`)),
+          h('div', {}, h('code', {}, o.name), h('b', {}, optionText(o.value, o.unit))),
           o.help ? h('p', { class: 'quiet' }, o.help) : null))))
       : null,
     h('section', { class: 'block' }, h('h3', {}, 'Input'), h('dl', {},

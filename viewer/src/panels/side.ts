@@ -33,7 +33,7 @@ export function sidePanel(app: App): HTMLElement {
     body.setAttribute('aria-labelledby', tabs[kTabs.indexOf(tab)]!.id);
     scenes.hidden = app.scenes.length < 2;
     scenes.replaceChildren(...app.scenes.map((s, i) => h('button', { type: 'button', 'aria-pressed': String(i === app.active), onclick: () => app.activate(i) },
-      h('b', {}, 'AB'[i] ?? String(i + 1)), ` ${s.model?.header.title ?? 'not readable'}`)));
+      h('b', {}, 'AB'[i] ?? String(i + 1)), ` ${app.titleOf(s)}`)));
     if (!view.model) body.replaceChildren(h('div', { class: 'panel-body' }, h('p', { class: 'note warning' }, view.error ?? 'There is no scene.')));
     else body.replaceChildren(tab === 'Found' ? foundPanel(app, view) : tab === 'Relations' ? relationsPanel(app, view) : madePanel(app, view));
     body.scrollTop = 0;

@@ -9,7 +9,7 @@ import { layersCard } from './layers_card';
 import { legend } from './legend';
 
 export function stage(app: App, view: SceneView, index: number): HTMLElement {
-  const label = app.scenes.length > 1 ? h('div', { class: 'stage-label' }, h('b', {}, 'AB'[index] ?? ''), view.model?.header.title ?? '') : null;
+  const label = app.scenes.length > 1 ? h('div', { class: 'stage-label' }, h('b', {}, 'AB'[index] ?? ''), app.titleOf(view)) : null;
   if (view.error && !view.viewport)
     return h('div', { class: 'stage' }, h('div', { class: 'fatal', role: 'alert' }, h('p', {}, view.error)));
   const { canvas } = view.viewport!;

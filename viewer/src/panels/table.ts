@@ -28,15 +28,15 @@ export function tablePanel(app: App, view: SceneView, table: Table): HTMLElement
   const body = h('tbody');
   const heads = table.columns.map((column, c) => h('th', { scope: 'col', 'aria-sort': 'none', class: numeric[c] ? 'right' : '' },
     h('button', { type: 'button', onclick: () => sortBy(c), title: `Sort by ${column.name}` }, column.name, column.unit ? h('span', { class: 'unit' }, ` ${column.unit}`) : null)));
-  const scroller = h('div', { class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': `${table.title}, ${table.rows.length} rows; arrow keys select` },
-    h('table', { 'aria-rowcount': table.rows.length + 1 }, h('thead', {}, h('tr', {}, ...heads)), body));
+  const scroller = h('div', { class: 'table-scroll', tabindex: '0', role: 'region', 'aria-label': `${table.title}, ${table.rows.length} rows${table.structure ? '; arrow keys select' : ''}` },
+    h('table', { class: table.structure ? 'selectable' : '', 'aria-rowcount': table.rows.length + 1 }, h('thead', {}, h('tr', {}, ...heads)), body));
   scroller.style.setProperty('--rows', String(Math.min(table.rows.length, 14) + 1.3));
 
   const selectedRow = () => (view.selection && view.selection.structure === table.structure ? view.selection.index : -1);
   let drawn = '';
-  function draw(force = false) {
-    const first = Math.max(0, Math.floor(scroller.scrollTop / kRow) - kSlack);
-    const last = Math.min(order.length, Math.ceil((scroller.scrollTop + (scroller.clientHeight || 600)) / kRow) + kSlack);
+  function draw(force = false, all = false) {
+    const first = all ? 0 : Math.max(0, Math.floor(scroller.scrollTop / kRow) - kSlack);
+    const last = all ? order.length : Math.min(order.length, Math.ceil((scroller.scrollTop + (scroller.clientHeight || 600)) / kRow) + kSlack);
     const selected = selectedRow();
     const key = `${first} ${last} ${selected}`;
     if (!force && key === drawn) return;
@@ -73,7 +73,7 @@ export function tablePanel(app: App, view: SceneView, table: Table): HTMLElement
     const top = k * kRow, room = scroller.clientHeight - kRow * 1.5;
     if (top < scroller.scrollTop || top > scroller.scrollTop + room) scroller.scrollTop = Math.max(0, top - room / 2);
   }
-  const pick = (row: number) => table.structure && app.select({ structure: table.structure, index: row }, app.scenes.indexOf(view));
+  const pick = (row: number) => void (table.structure && app.select({ structure: table.structure, index: row }, app.scenes.indexOf(view)));
 
   scroller.addEventListener('scroll', () => draw());
   body.addEventListener('click', (e) => {
@@ -85,7 +85,7 @@ export function tablePanel(app: App, view: SceneView, table: Table): HTMLElement
     if (row !== undefined && table.structure) app.hover({ structure: table.structure, index: Number(row) });
   });
   body.addEventListener('pointerleave', () => app.hover(null));
-  scroller.addEventListener('keydown', (e) => {
+  if (table.structure) scroller.addEventListener('keydown', (e) => {
     const step = { ArrowDown: 1, ArrowUp: -1, PageDown: 10, PageUp: -10, Home: -1e9, End: 1e9 }[e.key];
     if (step === undefined || (e.target as HTMLElement).tagName === 'BUTTON') return;
     e.preventDefault();
@@ -100,5 +100,6 @@ export function tablePanel(app: App, view: SceneView, table: Table): HTMLElement
   }, scroller);
   draw(true);
   new ResizeObserver(() => draw()).observe(scroller);
+  matchMedia('print').addEventListener('change', (e) => draw(true, e.matches));
   return h('section', { class: 'block' }, h('h3', {}, table.title, h('span', { class: 'count' }, String(table.rows.length))), scroller);
 }
