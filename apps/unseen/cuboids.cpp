@@ -112,8 +112,12 @@ int run(CuboidsArguments& args) {
   const cuboids::Completion c = cuboids::complete_cuboids(frame, args.options.method, context);
   if (c.summary.status == Status::cancelled) throw Cancelled();
   write_files(c, frame, args, table, out, context);
-  if (c.summary.status != Status::infeasible) run_applications(args.applications, frame, args.options.method, c, out, context);
-  return finish(session, out, c.summary, args.common, [&] { print_summary(c, args); });
+  std::vector<std::string> said;
+  if (c.summary.status != Status::infeasible) said = run_applications(args.applications, frame, args.options.method, c, out, context);
+  return finish(session, out, c.summary, args.common, [&] {
+    print_summary(c, args);
+    for (const std::string& line : said) fmt::print("{}\n", line);
+  });
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ Model read_model(const fs::path& path) {
   return model;
 }
 
-void complete(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
+std::string complete(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
               const io::OutputFolder& out, Context& context) {
   const Model model = read_model(path);
   cuboids::ScanCompletionOptions options;
@@ -61,10 +61,11 @@ void complete(const std::string& path, const RgbdFrame& frame, const cuboids::Op
   write_text(out.file("completed.json"), report::scan_completion_json(found, model.name));
   if (!found.found) {
     context.warn(fmt::format("no object of the scene is like {}: no completed.ply", model.name));
-    return;
+    return fmt::format("completed by {}: nothing like it", model.name);
   }
   CloudSource cloud(found.completed);
   io::write_points(out.file("completed.ply"), cloud, context);
+  return fmt::format("completed by {}: completed.ply, {:.0f} % of the points seen lie on the model", model.name, 100.0 * found.explained);
 }
 
 /// The usable models of a folder by the order of their names; what cannot be read is a warning.
@@ -88,7 +89,7 @@ std::vector<Model> read_models(const fs::path& folder, Context& context) {
   return models;
 }
 
-void retrieve(const ApplicationFlags& flags, const cuboids::Options& method, const cuboids::Completion& scene, const io::OutputFolder& out,
+std::string retrieve(const ApplicationFlags& flags, const cuboids::Options& method, const cuboids::Completion& scene, const io::OutputFolder& out,
               Context& context) {
   const std::vector<Model> models = read_models(flags.retrieve, context);
   std::vector<cuboids::RetrievalModel> candidates;
@@ -102,16 +103,18 @@ void retrieve(const ApplicationFlags& flags, const cuboids::Options& method, con
   Model model = models[static_cast<std::size_t>(best.model)];
   for (auto* points : {&model.mesh.vertices, &model.points.positions})
     for (Vec3& p : *points) p = best.T_world_model * (best.scale * p);
+  std::string said = fmt::format("best of {} model{}: {} (retrieved.ply; all ranked in retrieved.json)", models.size(), models.size() == 1 ? "" : "s", model.name);
   if (!model.mesh.triangles.empty()) {
     write_text(out.file("retrieved.ply"), report::mesh_ply(model.mesh));
-    return;
+    return said;
   }
   for (Vec3f& n : model.points.normals) n = best.T_world_model.rotation.cast<float>() * n;
   CloudSource cloud(model.points);
   io::write_points(out.file("retrieved.ply"), cloud, context);
+  return said;
 }
 
-void edit(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
+std::string edit(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
           const io::OutputFolder& out, Context& context) {
   const auto edits = report::parse_photo_edits(read_text(path, kLargestEdits), path);
   cuboids::PhotoEditOptions options;
@@ -119,6 +122,7 @@ void edit(const std::string& path, const RgbdFrame& frame, const cuboids::Option
   options.seed = static_cast<std::uint64_t>(method.seed);
   const cuboids::EditedPhoto edited = cuboids::edit_photo(frame, scene, edits, options, context);
   io::write_color_png(out.file("edited.png"), edited.width, edited.height, edited.pixels);
+  return "photograph edited: edited.png";
 }
 
 }  // namespace
@@ -134,11 +138,13 @@ void add_flags(CLI::App& app, ApplicationFlags& flags) {
   app.add_option("--edit", flags.edit, "move or remove objects in the photograph: edited.png")->type_name("EDITS.json");
 }
 
-void run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Options& method,
-                      const cuboids::Completion& scene, io::OutputFolder& out, Context& context) {
-  if (!flags.complete.empty()) complete(flags.complete, frame, method, scene, out, context);
-  if (!flags.retrieve.empty()) retrieve(flags, method, scene, out, context);
-  if (!flags.edit.empty()) edit(flags.edit, frame, method, scene, out, context);
+std::vector<std::string> run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Options& method,
+                                          const cuboids::Completion& scene, io::OutputFolder& out, Context& context) {
+  std::vector<std::string> said;
+  if (!flags.complete.empty()) said.push_back(complete(flags.complete, frame, method, scene, out, context));
+  if (!flags.retrieve.empty()) said.push_back(retrieve(flags, method, scene, out, context));
+  if (!flags.edit.empty()) said.push_back(edit(flags.edit, frame, method, scene, out, context));
+  return said;
 }
 
 }  // namespace unseen::cli

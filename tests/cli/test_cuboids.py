@@ -47,6 +47,19 @@ class Cuboids(CliTest):
             self.assertEqual(run.returncode, 2)
             self.assertIn("--truth", run.stderr)
 
+    def test_applications_write_their_files_and_say_so(self):
+        self.solve()
+        first = self.result()["cuboids"][0]["id"]
+        (self.folder / "edits.json").write_text(json.dumps({"edits": [{"id": first, "remove": True}]}))
+        (self.folder / "models").mkdir()
+        corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        (self.folder / "models/cube.obj").write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces))
+        run = self.solve("--edit", "edits.json", "--retrieve", "models", "--object", str(first), "--seed", "5")
+        self.assertEqual(set(contents(self.folder / "out")), FILES | {"edited.png", "retrieved.json", "retrieved.ply"})
+        self.assertIn("best of 1 model: cube.obj", run.stdout)
+        self.assertIn("photograph edited: edited.png", run.stdout)
+
     def test_writes_all_files_and_they_agree(self):
         self.solve()
         out = self.folder / "out"
