@@ -132,17 +132,7 @@ report::InputRecord record_of(const std::vector<std::string>& paths, const Conte
   if (paths.size() == 1) return {paths.front(), io::sha256(std::filesystem::path(paths.front()), context)};
   std::string lines;
   for (const std::string& path : paths) lines += fmt::format("{}  {}\n", io::sha256(std::filesystem::path(path), context), path);
-  return {fmt::format("{}", fmt::join(paths, kBetweenTakes)), io::sha256(std::string_view(lines))};
-}
-
-std::vector<std::string> takes_of(const report::InputRecord& input) {
-  if (std::filesystem::exists(input.path)) return {input.path};
-  std::vector<std::string> paths;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = input.path.find(kBetweenTakes, begin)) != std::string::npos; begin = end + kBetweenTakes.size())
-    paths.push_back(input.path.substr(begin, end - begin));
-  paths.push_back(input.path.substr(begin));
-  return paths;
+  return {fmt::format("{}", fmt::join(paths, report::kBetweenTakes)), io::sha256(std::string_view(lines))};
 }
 
 OptionTable InteractionsOptions::table() {

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "unseen/core/context.h"
@@ -12,7 +11,7 @@
 #include "unseen/interactions/options.h"
 #include "unseen/interactions/types.h"
 #include "unseen/report/pose_network.h"
-#include "unseen/report/stored_run.h"
+#include "unseen/report/interactions_scene.h"
 
 namespace unseen::cli {
 
@@ -33,12 +32,7 @@ struct InteractionsOptions {
 /// The takes of these files; of videos, with a pose network.
 std::vector<interactions::Take> read_takes(const std::vector<std::string>& paths, const InteractionsOptions& options, Context& context);
 
-inline constexpr std::string_view kBetweenTakes = ", ";
-
 /// Several takes count as a text that lists them; its hash is that of the lines "HASH  PATH".
 report::InputRecord record_of(const std::vector<std::string>& paths, const Context& context);
-
-/// The files of such a record.
-std::vector<std::string> takes_of(const report::InputRecord& input);
 
 }  // namespace unseen::cli

@@ -127,7 +127,7 @@ Shown interactions_result(const std::filesystem::path& folder, const report::Sto
   interactions::Reconstruction r = report::read_interactions_result(folder / "result.json");
   InteractionsOptions options;
   OptionTable table = options.table();
-  const std::vector<std::string> inputs = takes_of(run.input);
+  const std::vector<std::string> inputs = report::takes_of(run.input);
   const std::string command = command_of(run, inputs, folder.string(), table);
   std::vector<interactions::Take> takes;
   try {  // without the take the page does not show what the detector saw, and says so

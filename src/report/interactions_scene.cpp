@@ -141,11 +141,25 @@ std::string interactions_scene(const Reconstruction& r, const InputRecord& input
   return scene.encode();
 }
 
+std::vector<std::string> takes_of(const InputRecord& input) {
+  if (std::filesystem::exists(input.path)) return {input.path};
+  std::vector<std::string> paths;
+  std::size_t begin = 0;
+  for (std::size_t end; (end = input.path.find(kBetweenTakes, begin)) != std::string::npos; begin = end + kBetweenTakes.size())
+    paths.push_back(input.path.substr(begin, end - begin));
+  paths.push_back(input.path.substr(begin));
+  return paths;
+}
+
 std::string interactions_title(const InputRecord& input) {
-  std::filesystem::path path(input.path);
-  if (path.filename() == "take.json" && path.has_parent_path()) path = path.parent_path();
-  const std::string name = path.filename().string();
-  return "Interactions of " + (name.empty() ? input.path : name);
+  std::string names;
+  for (const std::string& take : takes_of(input)) {
+    std::filesystem::path path(take);
+    if (path.filename() == "take.json" && path.has_parent_path()) path = path.parent_path();
+    const std::string name = path.filename().string();
+    names += (names.empty() ? "" : ", ") + (name.empty() ? take : name);
+  }
+  return "Interactions of " + names;
 }
 
 }  // namespace unseen::report

@@ -137,6 +137,7 @@ class Interactions(CliTest):
         self.assertEqual(self.unseen("view", "both").returncode, 0)
         again, = scenes_of(self.folder / "both/report.html")
         self.assertEqual(again.header["command"], "unseen interactions take/early.json take/late.json -o both")
+        self.assertEqual(again.header["title"], "Interactions of early.json, late.json")
         self.assertEqual(first.buffer, again.buffer)
         other = {**self.take, "camera": {**self.take["camera"], "fx": 900}}
         (self.folder / "take/other.json").write_text(json.dumps(other))

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "unseen/core/options.h"
@@ -21,7 +22,13 @@ std::string interactions_scene(const interactions::Reconstruction& reconstructio
 
 inline constexpr int kEvidencePixels = 6;
 
-/// "Interactions of lounge.json"; of a take.json its folder is named.
+/// Stands between the paths of several takes in their record.
+inline constexpr std::string_view kBetweenTakes = ", ";
+
+/// The files of a record of takes.
+std::vector<std::string> takes_of(const InputRecord& input);
+
+/// "Interactions of lounge.json", or of several takes, separated by commas; of a take.json its folder is named.
 std::string interactions_title(const InputRecord& input);
 
 }  // namespace unseen::report
