@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cuboids/outline_steps.h"
 #include "cuboids/upright_box.h"
 
 namespace unseen::cuboids {
@@ -20,6 +21,7 @@ constexpr double kLeastExplained = 0.08;  // of the points, that a level must ex
 constexpr double kLeastShare = 0.2;       // … and of those that one box leaves unexplained
 constexpr double kMostLeft = 0.25;        // of the points, that a stack may leave unexplained …
 constexpr double kMostOfOne = 0.5;        // … and of those that one box leaves so
+constexpr double kMostOfStepped = 0.8;    // … where the outline steps at its levels
 constexpr double kLooksDown = -0.7;
 constexpr double kFar = 1e9;
 
@@ -103,6 +105,16 @@ std::vector<double> levels_of(std::span<const Sample> samples) {
   return {levels.begin() + 1, levels.end() - 1};
 }
 
+/// Levels at which the outline steps; none where boxes between them do not explain the samples better than one does.
+std::vector<double> outline_levels(const Observation& seen, const std::vector<int>& part, std::span<const Sample> samples) {
+  std::vector<double> levels = outline_steps(seen, part, across_front(samples));
+  if (levels.empty()) return {};
+  double left = unexplained(between(samples, levels.back(), kFar)), low = -kFar;
+  for (const double z : levels) left += unexplained(between(samples, low, z)), low = z;
+  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfStepped * unexplained(samples))) return {};
+  return levels;
+}
+
 /// At most so many points of a part, in order of height. What looks down tells of no level.
 std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& points, std::size_t most) {
   std::vector<Sample> samples;
@@ -126,9 +138,13 @@ Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>&
   int stack = 0;
   for (const std::vector<int>& part : parts) {
     context.check();
-    std::vector<double> levels = levels_of(samples_of(seen, part, kCoarse));
+    const std::vector<Sample> coarse = samples_of(seen, part, kCoarse);
+    std::vector<double> levels = levels_of(coarse);
+    if (!levels.empty())
+      place(levels, samples_of(seen, part, kFine));
+    else if (!coarse.empty())
+      levels = outline_levels(seen, part, coarse);
     if (levels.empty()) continue;
-    place(levels, samples_of(seen, part, kFine));
     const auto first = static_cast<int>(stacks.stack_of_piece.size());
     for (const int i : part)
       stacks.piece_of_point[i] = first + static_cast<int>(std::upper_bound(levels.begin(), levels.end(), seen.points[i].z()) - levels.begin());

@@ -146,6 +146,14 @@ double unexplained(std::span<const Sample> samples) {
   return sum;
 }
 
+Vec2 across_front(std::span<const Sample> samples) {
+  const UprightBox box = fit_upright(samples);
+  std::array<int, 5> count{};
+  for (const Sample& s : samples) ++count[box.side(s.n)];
+  const Vec2 out = box.out[std::max_element(count.begin(), count.begin() + 4) - count.begin()];
+  return {-out.y(), out.x()};
+}
+
 double unexplained_leaning(std::span<const Sample> samples) {
   if (samples.empty()) return 0.0;
   const UprightBox box = fit_upright(samples);

@@ -18,6 +18,9 @@ struct Sample {
 /// best, with one side in each of four directions and a top.
 double unexplained(std::span<const Sample> samples);
 
+/// The horizontal direction along the side of that box on which most samples are; unit.
+Vec2 across_front(std::span<const Sample> samples);
+
 /// The same of a body whose sides and top may lean: one plane each way.
 double unexplained_leaning(std::span<const Sample> samples);
 

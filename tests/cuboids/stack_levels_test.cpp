@@ -66,6 +66,39 @@ TEST(StackLevels, NoneLiesWithinABox) {  // where the first cut of a tower may
   EXPECT_GE(found, 14);  // of 18; where one side alone looks at the camera, or the upper two are nearly in line, there is little to tell
 }
 
+/// Cartons whose fronts are so nearly in line that their noise hides the step between them: the outline tells.
+TEST(StackLevels, LieWhereTheOutlineSteps) {
+  int found = 0;
+  for (double yaw = -10.0; yaw <= 10.0; yaw += 2.0) {
+    const auto at = [&](double across, double in, double z, const Vec3& size) {
+      const Vec2 p = Vec2(0, 2.9) + Eigen::Rotation2Dd(radians(yaw)) * Vec2(across, in + 0.5 * size.y());
+      return upright(p.x(), p.y(), z, size, yaw);
+    };
+    Scene scene;
+    scene.boxes = {at(0, 0, 0, {0.6, 0.4, 0.4}), at(0.01, 0.025, 0.4, {0.5, 0.35, 0.3})};
+    scene.height = 0.7;
+    scene.pitch = radians(8.0);
+    scene.noise = 0.0015;
+    const std::vector<double> z = levels(observed(scene));
+    ASSERT_LE(z.size(), 1u) << yaw;
+    if (z.empty()) continue;
+    ++found;
+    EXPECT_NEAR(z[0], 0.4, 0.015) << yaw;
+  }
+  EXPECT_EQ(found, 11);
+}
+
+TEST(StackLevels, WhatStandsSideBySideHasNone) {  // its outline steps as well, on one side and far
+  for (const double height : {0.2, 0.3, 0.42}) {
+    Scene scene;
+    scene.boxes = {upright(-0.15, 2.9, 0, {0.3, 0.3, 0.5}, 0), upright(0.15, 2.9, 0, {0.3, 0.3, height}, 0)};
+    scene.height = 0.7;
+    scene.pitch = radians(8.0);
+    scene.noise = 0.0015;
+    EXPECT_TRUE(levels(observed(scene)).empty()) << height;
+  }
+}
+
 TEST(StackLevels, OneBoxHasNone) {
   for (const double yaw : {0.0, 25.0, 44.0}) {
     Scene scene;
