@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "commands.h"
@@ -44,7 +43,7 @@ void print_impacts(const collision::Reconstruction& r) {
   }
   const collision::Impact& first = r.impacts.front();
   if (!r.fits)
-    fmt::print("no impact that the model explains; looked for at frame {:.2f} ({:.4f} s)\n", first.frame, first.time);
+    fmt::print("the model does not explain the impact{} looked for at frame {:.2f} ({:.4f} s)\n", r.impacts.size() > 1 ? "s; the first was" : "", first.frame, first.time);
   else if (r.impacts.size() == 1)
     fmt::print("one impact, at frame {:.2f} ({:.4f} s)\n", first.frame, first.time);
   else

@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kSamples = 50'000;        // on a mesh
+constexpr double kFullest = 0.95;               // what must be full to the last voxel is in no scan
 constexpr std::uintmax_t kLargestEdits = 1'000'000;  // bytes
 
 /// A model as its file has it, and points of its surface.
@@ -52,10 +53,10 @@ Model read_model(const fs::path& path) {
 }
 
 std::string complete(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
-              const io::OutputFolder& out, Context& context) {
+                     const io::OutputFolder& out, Context& context) {
   const Model model = read_model(path);
   cuboids::ScanCompletionOptions options;
-  options.fill = method.fill;
+  options.fill = std::min(method.fill, kFullest);
   options.noise = method.noise.value_or(options.noise);
   const cuboids::ScanCompletion found = cuboids::complete_scan(frame, scene, model.points, options, context);
   write_text(out.file("completed.json"), report::scan_completion_json(found, model.name));
@@ -90,7 +91,7 @@ std::vector<Model> read_models(const fs::path& folder, Context& context) {
 }
 
 std::string retrieve(const ApplicationFlags& flags, const cuboids::Options& method, const cuboids::Completion& scene, const io::OutputFolder& out,
-              Context& context) {
+                     Context& context) {
   const std::vector<Model> models = read_models(flags.retrieve, context);
   std::vector<cuboids::RetrievalModel> candidates;
   for (const Model& model : models) candidates.push_back({model.name, model.points.positions});
@@ -115,7 +116,7 @@ std::string retrieve(const ApplicationFlags& flags, const cuboids::Options& meth
 }
 
 std::string edit(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
-          const io::OutputFolder& out, Context& context) {
+                 const io::OutputFolder& out, Context& context) {
   const auto edits = report::parse_photo_edits(read_text(path, kLargestEdits), path);
   cuboids::PhotoEditOptions options;
   options.noise = method.noise.value_or(options.noise);

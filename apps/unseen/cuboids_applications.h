@@ -23,7 +23,8 @@ struct ApplicationFlags {
 };
 void add_flags(CLI::App& app, ApplicationFlags& flags);
 
-/// With the method's options as the scene was made with them. Writes completed.ply and completed.json, retrieved.ply and retrieved.json, edited.png, as far as they are asked for.
+/// Writes completed.ply and completed.json, retrieved.ply and retrieved.json, edited.png, as far as they are asked for, with the fill and seed that
+/// the scene was made with, and the noise if it was given (a Kinect's otherwise).
 /// Returns a line each that says what came of it. Throws InputError for files that cannot be used.
 std::vector<std::string> run_applications(const ApplicationFlags& flags, const RgbdFrame& frame, const cuboids::Options& method,
                                           const cuboids::Completion& scene, io::OutputFolder& out, Context& context);

@@ -11,7 +11,7 @@
 #include "unseen/interactions/options.h"
 #include "unseen/interactions/types.h"
 #include "unseen/report/pose_network.h"
-#include "unseen/report/interactions_scene.h"
+#include "unseen/report/stored_run.h"
 
 namespace unseen::cli {
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "cuboids.h"
@@ -24,7 +25,6 @@
 #include "unseen/report/cuboids_scene.h"
 #include "unseen/report/interactions_result.h"
 #include "unseen/report/interactions_scene.h"
-#include "unseen/report/interactions_take.h"
 #include "unseen/report/planes_scene.h"
 #include "unseen/report/stage_files.h"
 #include "write_text.h"

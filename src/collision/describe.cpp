@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/frame_clock.h"
+#include "collision/frames.h"
 #include "collision/residuals.h"
 #include "collision/restitution.h"
 #include "collision/symmetry.h"
@@ -35,19 +35,6 @@ struct Teller {
 
   const Problem& problem() const { return impact.solution.problem; }
   const State& state() const { return impact.solution.fit.state; }
-
-  BodyState body_at(int o, bool after, double time) const {
-    const StateT<double> s = values_of(problem(), state());
-    const PointState<double> there = fly<double>({s.p[o], after ? s.v_after[o] : s.v[o]}, s.down * problem().gravity, problem().drag[o], time - s.time);
-    const double mass = o == 0 ? 1.0 : s.mass_ratio;
-    const Quat q = orientation_at(problem(), state(), o, after, time);
-    BodyState body;
-    body.p = to_world * there.p;
-    body.v = to_world * there.v;
-    body.k = to_world * Vec3(mass * (after ? s.h_after[o] : s.h[o]));
-    body.q = (Quat(to_world) * q * problem().solids[o].file_to_principal).normalized();
-    return body;
-  }
 
   Impact describe(const FrameClock& clock) const {
     const StateT<double> s = values_of(problem(), state());
@@ -98,52 +85,6 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
   return remarks;
 }
 
-/// Both solutions tell of the flight between two impacts: from the one to the other, so that nothing jumps.
-BodyState between(const Teller& one, const Teller& next, int o, double time) {
-  const double length = next.state().time - one.state().time, x = (time - one.state().time) / length;
-  const double share = x * x * (3.0 - 2.0 * x), rate = 6.0 * x * (1.0 - x) / length;
-  const BodyState a = one.body_at(o, true, time), b = next.body_at(o, false, time);
-  BodyState s;
-  s.p = (1.0 - share) * a.p + share * b.p;
-  s.v = (1.0 - share) * a.v + share * b.v + rate * (b.p - a.p);
-  s.k = (1.0 - share) * a.k + share * b.k;
-  s.q = a.q.slerp(share, b.q);
-  return s;
-}
-
-/// Whether the flight after one impact is the flight before the next.
-bool is_one_flight(const Teller& one, const Teller& next, const Tracks& tracks, int o) {
-  const std::vector<int>&after = one.impact.meeting.after, &before = next.impact.meeting.before;
-  return std::any_of(after.begin(), after.end(), [&](int s) { return tracks.spans[s].body == o && std::count(before.begin(), before.end(), s) > 0; });
-}
-
-void add_frames(const std::vector<Teller>& tellers, const Tracks& tracks, const FrameClock& clock, Reconstruction& result) {
-  const auto time_of = [&](std::size_t i) { return tellers[i].state().time; };
-  for (int frame = clock.first(); frame <= clock.last(); ++frame) {
-    FramePose pose;
-    pose.frame = frame;
-    const double time = pose.time = clock.time_at(frame);
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < tellers.size(); ++i)
-      if (std::abs(time_of(i) - time) < std::abs(time_of(nearest) - time)) nearest = i;
-    const Teller& teller = tellers[nearest];
-    const bool after = time > teller.state().time;
-    const std::size_t other = after ? nearest + 1 : nearest - 1;  // the impact on the other side, if there is one
-    for (int o = 0; o < (teller.problem().fixed ? 1 : 2); ++o) {
-      const std::vector<int>& spans = after ? teller.impact.meeting.after : teller.impact.meeting.before;
-      const bool seen = std::any_of(spans.begin(), spans.end(), [&](int s) {
-        const FlightSpan& span = tracks.spans[s];
-        return span.body == o && (after ? tracks.points[span.end - 1].frame >= frame : tracks.points[span.begin].frame <= frame);
-      });
-      if (!seen) continue;
-      const Teller *one = &teller, *next = other < tellers.size() ? &tellers[other] : nullptr;
-      if (!after) std::swap(one, next);
-      pose.bodies[o] = one && next && is_one_flight(*one, *next, tracks, o) ? between(*one, *next, o, time) : teller.body_at(o, after, time);
-    }
-    if (pose.bodies[0] || pose.bodies[1]) result.frames.push_back(pose);
-  }
-}
-
 void add_residuals(const SolvedImpact& impact, Reconstruction& result) {
   const Problem& problem = impact.solution.problem;
   const StateT<double> s = values_of(problem, impact.solution.fit.state);
@@ -171,8 +112,9 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
   result.fps = fps;
   result.fixed = problem.fixed ? shot.bodies[1].name : "";
   const FrameClock clock(tracks, fps);
+  const Mat3& to_world = result.T_world_camera.rotation;
   std::vector<Teller> tellers;
-  for (const SolvedImpact& impact : impacts) tellers.push_back({impact, result.T_world_camera.rotation});
+  for (const SolvedImpact& impact : impacts) tellers.push_back({impact, to_world});
 
   std::vector<Estimate> restitutions;
   std::vector<Vec3> common;
@@ -207,7 +149,7 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
     body.name = shot.bodies[o].name;
     body.fixed = o == 1 && problem.fixed;
     body.inertia = problem.solids[o].mass.inertia;
-    if (!body.fixed) body.before = tellers.front().body_at(o, false, state.time), body.after = tellers.front().body_at(o, true, state.time);
+    if (!body.fixed) body.before = body_at(first, to_world, o, false, state.time), body.after = body_at(first, to_world, o, true, state.time);
     result.bodies.push_back(body);
   }
   const StateT<double> s = values_of(problem, state);
@@ -216,7 +158,7 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
   for (const auto& [name, size] : first.solution.fit.terms) result.terms.push_back({name, size, 1.0});
   result.observability = observability(first, shot);
   if (problem.drag[0] > 0.0) result.drag = problem.drag[0];
-  add_frames(tellers, tracks, clock, result);
+  result.frames = frame_poses(impacts, to_world, tracks, clock);
 }
 
 }  // namespace unseen::collision

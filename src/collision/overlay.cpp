@@ -38,6 +38,13 @@ PictureChoice choose_pictures(const Reconstruction& r, const std::array<int, 2>&
   return choice;
 }
 
+/// s: by the time stamps of the frames in flight, which may be uneven; of others by the frame rate from the nearest of these.
+double time_of(const Reconstruction& r, int frame) {
+  auto at = std::lower_bound(r.frames.begin(), r.frames.end(), frame, [](const FramePose& f, int value) { return f.frame < value; });
+  if (at == r.frames.end() || (at != r.frames.begin() && frame - (at - 1)->frame < at->frame - frame)) --at;
+  return at->time + (frame - at->frame) / r.fps;
+}
+
 OverlayPicture picture_of(const cv::Mat& frame, double time) {
   cv::Mat small = frame;
   if (frame.cols > kPictureWidth)
@@ -67,7 +74,7 @@ std::vector<OverlayPicture> write_overlay(const Shot& shot, const Reconstruction
         !writer.open(video.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), r.fps > kFast ? kSlow : r.fps, frame.size()))
       throw InputError(video.string(), "", "no video can be written", "OpenCV with FFmpeg, and a file that can be written");
     if (writer.isOpened()) writer.write(frame);
-    if (choice.takes(f)) pictures.push_back(picture_of(frame, f / r.fps));
+    if (choice.takes(f)) pictures.push_back(picture_of(frame, time_of(r, f)));
   }
   return pictures;
 }

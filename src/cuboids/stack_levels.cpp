@@ -13,7 +13,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr std::size_t kCoarse = 400, kFine = 2000;  // samples of a part: to see whether it is a stack, and to place its levels
-constexpr std::size_t kFewestLevelSamples = 24;         // on either side of a level …
+constexpr std::size_t kFewestLevelSamples = 24;    // on either side of a level …
 constexpr double kSmallestShare = 0.06;            // … and of the samples that are cut
 constexpr double kLeastHeight = 0.02, kLeastHeightSigmas = 10.0;  // m, of what stands on or under another
 constexpr int kFirstLevels = 20, kFinerLevels = 4, kPlaceRounds = 3;

@@ -29,9 +29,9 @@ void check(const Take& take, const Take& first) {
 void add_pose(const Take& take, Take& all) {
   constexpr double kSameTurn = 2.0 * kPi / 180.0, kSameHeight = 0.05;  // m
   if (take.up && all.up && take.up->dot(*all.up) < std::cos(kSameTurn))
-    throw InputError(take.name, "up", "another direction", fmt::format("that of the takes before, of {} on: takes of one camera", all.name));
+    throw InputError(take.name, "up", "another direction", "that of a take before it: takes of one camera");
   if (take.camera_height && all.camera_height && std::abs(*take.camera_height - *all.camera_height) > kSameHeight)
-    throw InputError(take.name, "camera_height", fmt::format("{:.3g} m", *take.camera_height), fmt::format("{:.3g} m, as before: takes of one camera", *all.camera_height));
+    throw InputError(take.name, "camera_height", fmt::format("{:.3g} m", *take.camera_height), fmt::format("{:.3g} m, as a take before it has: takes of one camera", *all.camera_height));
   if (!all.up) all.up = take.up;
   if (!all.camera_height) all.camera_height = take.camera_height;
 }

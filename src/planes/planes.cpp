@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "planes/arrange.h"
 #include "planes/assign.h"
@@ -101,7 +99,8 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
     if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
     if (estimated)
-      context.message(fmt::format("scale {:.4g} m, estimated from spacing and noise; points may lie {:.4g} m from their plane", result.scale, tolerance));
+      context.message(fmt::format("scale {:.4g}{unit}, estimated from spacing and noise; points may lie {:.4g}{unit} from their plane", result.scale, tolerance,
+                                  fmt::arg("unit", space.is_2d() ? "" : " m")));
     warn_of_rounding(seen, result.scale, context);
     if (estimated) warn_of_units(seen, space, result.scale, context);
     summary.counts = {{"points", seen.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0},
@@ -181,7 +180,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   find_relations(angles, result);
   find_second_order(result);
   tag_planes(result);
-  warn_of_curves(patches, context);
+  warn_of_curves(patches, space, context);
   warn_of_right_angles(result, angles, context);
   context.check();
   summary.counts.emplace_back("frames", result.frames.size());

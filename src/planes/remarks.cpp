@@ -81,7 +81,7 @@ void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Con
   if (right > kMany * all) context.warn("planes at right angles are not related, as the angles asked for do not name 90: add it, as in --angles 60,90");
 }
 
-void warn_of_curves(const Patches& patches, Context& context) {
+void warn_of_curves(const Patches& patches, const Space& space, Context& context) {
   constexpr double kLeast = 2.0 * kPi / 180.0, kMost = 20.0 * kPi / 180.0;  // between strips of a curved surface
   constexpr double kFlush = 0.5 * kPi / 180.0, kMany = 0.6, kWhole = 0.8;   // no edge; of all edges; of the area that has edges, with most of that sort
   std::vector<double> gentle(patches.patches.size(), 0.0), all(patches.patches.size(), 0.0);
@@ -102,7 +102,8 @@ void warn_of_curves(const Patches& patches, Context& context) {
     if (gentle[p] > 0.5 * all[p]) curved += patches.patches[p].area;
   }
   if (gentle_edges > kMany * edges && curved > kWhole * area)
-    context.warn("most planes meet their neighbours at 2 to 20 degrees, as strips of a curved surface do: if it is one, relations between them mean nothing");
+    context.warn(fmt::format("most {} meet their neighbours at 2 to 20 degrees, as strips of a curved {} do: if it is one, relations between them mean nothing",
+                             space.is_2d() ? "lines" : "planes", space.is_2d() ? "line" : "surface"));
 }
 
 }  // namespace unseen::planes

@@ -19,7 +19,7 @@ void warn_of_units(const Survey& survey, const Space& space, double scale, Conte
 void warn_of_few(PointSource& source, const Survey& seen, const Space& space, bool estimated, const Arrangement& result, Context& context);
 
 /// Warns where most patches are strips of curved surfaces.
-void warn_of_curves(const Patches& patches, Context& context);
+void warn_of_curves(const Patches& patches, const Space& space, Context& context);
 
 /// Warns where planes are at right angles that the angles asked for do not name.
 void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Context& context);

@@ -80,7 +80,7 @@ Json facts_of(const Reconstruction& r) {
   if (r.fixed.empty() && r.bodies.size() == 2) fact(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
   if (!r.frames.empty()) fact("the model fits", r.fits ? "yes" : "no");
   if (!r.ambiguous.empty()) fact("ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"));
-  if (r.fits || r.impacts.empty()) fact("impacts", std::to_string(r.impacts.size()));
+  fact(r.fits ? "impacts" : "impacts looked for", std::to_string(r.impacts.size()));
   if (!r.impacts.empty() && r.fits) fact("first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
   if (r.restitution) fact("kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
   if (r.reprojection_rms > 0) fact("reprojection", fmt::format("{:.2f} px", r.reprojection_rms));

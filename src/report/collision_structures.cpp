@@ -24,12 +24,14 @@ Json shape_of(SceneBuilder& scene, const Shot& shot, const Reconstruction& r, st
   return ball_shape(2.0 * std::sqrt(2.5 * (b < r.bodies.size() ? r.bodies[b].inertia.mean() : 1e-3)));
 }
 
-/// Pixels between where a body was seen and where the solution has it, by frame.
-std::map<int, double> distances(const Reconstruction& r, int body) {
-  std::map<int, double> by_frame;
+/// Pixels between where a body was seen and where the solution has it, by the time of the frame, s.
+std::map<double, double> distances(const Reconstruction& r, int body) {
+  std::map<int, double> time_of;
+  for (const FramePose& f : r.frames) time_of[f.frame] = f.time;
+  std::map<double, double> by_time;
   for (const Residual& x : r.residuals)
-    if (x.body == body) by_frame[x.frame] = (x.seen - x.predicted).norm();
-  return by_frame;
+    if (const auto at = time_of.find(x.frame); x.body == body && at != time_of.end()) by_time[at->second] = (x.seen - x.predicted).norm();
+  return by_time;
 }
 
 }  // namespace
@@ -55,7 +57,7 @@ void add_flights(SceneBuilder& scene, const Reconstruction& r, double gravity) {
   double highest = 1e-3;
   for (int b = 0; b < 2; ++b) {
     const Motion motion = motion_of(r, b, gravity);
-    const std::map<int, double> off = distances(r, b);
+    const std::map<double, double> off = distances(r, b);
     for (std::size_t i = 0; i + 1 < motion.times.size(); ++i) {
       const double middle = 0.5 * (motion.times[i] + motion.times[i + 1]);
       const int leg = static_cast<int>(std::count_if(r.impacts.begin(), r.impacts.end(), [&](const Impact& x) {
@@ -67,7 +69,7 @@ void add_flights(SceneBuilder& scene, const Reconstruction& r, double gravity) {
       ends.push_back(motion.positions[i]);
       ends.push_back(motion.positions[i + 1]);
       flight.push_back(label);
-      const auto at = off.find(static_cast<int>(std::lround(motion.times[i] * r.fps)));
+      const auto at = off.find(motion.times[i]);
       residual.push_back(at == off.end() ? std::nanf("") : static_cast<float>(at->second));
       if (at != off.end()) highest = std::max(highest, at->second);
     }

@@ -15,29 +15,38 @@ namespace {
 
 using planes::Arrangement;
 
-/// Lengths of drawings are in units of their own, as pixels.
-constexpr const char* unit_of_length(const Arrangement& a) { return a.two_dimensional ? "" : "m"; }
-
 /// Offsets are those in the page's coordinates: of world coordinates far away, normals have too few digits to go with them.
 void add_table(SceneBuilder& scene, const Arrangement& a, const Vec3& shift) {
   const bool flat = a.two_dimensional;
+  const int left_out = flat ? planes::flat_axis(a).value_or(2) : -1;  // of the normals of a drawing
   Json rows = Json::array();
   for (std::size_t p = 0; p < a.planes.size(); ++p) {
     const planes::ArrangedPlane& plane = a.planes[p];
     const Vec3& n = plane.plane.normal;
-    Json row = {p};
+    Json row = Json::array();
+    row.push_back(p);
     if (!flat) row.push_back(plane.tag);
-    for (const Json& cell : Json{number(plane.area), plane.points, number(flat ? plane.rms : 1000.0 * plane.rms), plane.frame, plane.direction, number(n.x()), number(n.y())}) row.push_back(cell);
-    if (!flat) row.push_back(number(n.z()));
+    row.push_back(number(plane.area));
+    row.push_back(plane.points);
+    row.push_back(number(flat ? plane.rms : 1000.0 * plane.rms));
+    row.push_back(plane.frame);
+    row.push_back(plane.direction);
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis != left_out) row.push_back(number(n[axis]));
     row.push_back(number(plane.plane.offset - n.dot(shift)));
     rows.push_back(std::move(row));
   }
-  Json columns = {column(flat ? "line" : "plane")};
+  Json columns = Json::array();
+  columns.push_back(column(flat ? "line" : "plane"));
   if (!flat) columns.push_back(column("tag"));
-  for (const Json& c : Json{column(flat ? "length" : "area", flat ? "" : "m²", 3), column("points"), column("rms", flat ? "" : "mm", 2), column("frame"), column("direction"),
-                            column("normal x", "", 4), column("normal y", "", 4)}) columns.push_back(c);
-  if (!flat) columns.push_back(column("normal z", "", 4));
-  columns.push_back(column(shift.isZero() ? "offset" : "offset, from the page's origin", unit_of_length(a), 3));
+  columns.push_back(column(flat ? "length" : "area", flat ? "" : "m²", 3));
+  columns.push_back(column("points"));
+  columns.push_back(column("rms", flat ? "" : "mm", 2));
+  columns.push_back(column("frame"));
+  columns.push_back(column("direction"));
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != left_out) columns.push_back(column(fmt::format("normal {}", "xyz"[axis]), "", 4));
+  columns.push_back(column(shift.isZero() ? "offset" : "offset, from the page's origin", flat ? "" : "m", 3));
   scene.header["tables"].push_back(
       {{"title", flat ? "Lines" : "Planes"},
        {"structure", "planes"},
@@ -60,7 +69,7 @@ Json facts_of(const Arrangement& a) {
           fact("directions", std::to_string(a.directions.size())), fact("relations", std::to_string(a.relations.size())),
           fact("related pairs of " + things, grouped(a.plane_relations)), fact("points", grouped(points)),
           fact("points explained", points > 0 ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(assigned) / static_cast<double>(points)) : "–"),
-          fact("scale", fmt::format("{:.4g} {}", a.scale, unit_of_length(a)))};
+          fact("scale", fmt::format("{:.4g}{}", a.scale, a.two_dimensional ? "" : " m"))};
 }
 
 /// The box that all but half a percent of the points on planes lie in, along each axis and at each end.

@@ -56,7 +56,7 @@ Json plane_quantities(SceneBuilder& scene, const Arrangement& a) {
   direction["names"] = numbered("direction", a.directions.size());
   Json plane = quantity("plane", a.two_dimensional ? "Line" : "Plane", "label", scene.integers(own));
   plane["names"] = plane_names(a);
-  Json residual = quantity("rms", "RMS distance of its points", "scalar", scene.scalars(rms), "m");
+  Json residual = quantity("rms", "RMS distance of its points", "scalar", scene.scalars(rms), a.two_dimensional ? "" : "m");
   residual["low"] = 0.0;
   residual["high"] = number(rms.empty() ? a.scale : std::max(1e-9, static_cast<double>(*std::max_element(rms.begin(), rms.end()))));
   return {frame, direction, plane, residual};
@@ -123,7 +123,7 @@ void add_points(SceneBuilder& scene, const Arrangement& a, const OrderedPoints& 
   frame["names"] = numbered("frame", a.frames.size());
   Json plane = quantity("plane", a.two_dimensional ? "Line" : "Plane", "label", scene.integers(points.plane));
   plane["structure"] = "planes";
-  Json residual = quantity("residual", "Distance to its plane", "scalar", scene.coarse_scalars(residuals, 0.0, a.scale), "m");
+  Json residual = quantity("residual", "Distance to its plane", "scalar", scene.coarse_scalars(residuals, 0.0, a.scale), a.two_dimensional ? "" : "m");
   residual["low"] = 0.0;
   residual["high"] = number(a.scale);
   cloud["quantities"] = {frame, plane, residual};

@@ -53,6 +53,18 @@ double colored(const cv::Mat& picture, double x, double y) {
   return most;
 }
 
+TEST_F(OverlayTest, PicturesHaveTheTimesOfUnevenFrames) {
+  for (FramePose& f : sample.result.frames)
+    if (f.frame >= 20) f.time += 0.05;
+  const int last = sample.result.frames.back().frame;
+  const auto pictures = write_overlay(sample.shot, sample.result, "", context);
+  EXPECT_DOUBLE_EQ(pictures[19].time, 19 / 120.0);
+  EXPECT_DOUBLE_EQ(pictures[20].time, 20 / 120.0 + 0.05);
+  const auto after = static_cast<std::size_t>(last) + 1;
+  ASSERT_LT(after, pictures.size());
+  EXPECT_NEAR(pictures[after].time, (last + 1) / 120.0 + 0.05, 1e-12) << "past the flights by the frame rate";
+}
+
 TEST_F(OverlayTest, DrawsTheBallWhereItIs) {
   const auto pictures = write_overlay(sample.shot, sample.result, "", context);
   ASSERT_EQ(pictures.size(), 90u);

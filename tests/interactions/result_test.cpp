@@ -9,6 +9,7 @@
 #include "interactions/result_samples.h"
 #include "unseen/core/error.h"
 #include "unseen/report/interactions_evaluation.h"
+#include "unseen/report/interactions_scene.h"
 
 namespace unseen::interactions::test {
 namespace {
@@ -118,6 +119,14 @@ TEST(InteractionsEvaluation, JsonAndTableSayTheSame) {
   const std::string table = report::evaluation_table(e);
   for (const char* text : {"2 of 3", "51.7 cm", "chair 3 (found 1)", "table (found 9)", "not found", "0.079", "19.0 cm", "12 frames", "55"})
     EXPECT_NE(table.find(text), std::string::npos) << text << "\n" << table;
+}
+
+TEST(Takes, OfARecordAreThoseItLists) {
+  EXPECT_EQ(report::takes_of({"take.json", ""}), std::vector<std::string>{"take.json"});
+  EXPECT_EQ(report::interactions_title({"lounge/take.json, hall.json", ""}), "Interactions of lounge, hall.json");
+  std::string many;  // longer than any path may be
+  for (int i = 0; i < 400; ++i) many += (i > 0 ? ", " : "") + std::string("a-room/take-of-it.json");
+  EXPECT_EQ(report::takes_of({many, ""}).size(), 400u);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 // What the page shows: its scenes, what is selected in them, and the sliders that they share.
 import * as THREE from 'three';
+import { optionText } from './dom';
 import type { CameraStructure } from './format';
 import { poseOf } from './layers/camera';
 import type { Look } from './layers/layer';
@@ -20,7 +21,7 @@ export interface SceneView {
   relations: Relations;
 }
 
-export type Topic = 'selection' | 'hover' | 'time' | 'before' | 'theme' | 'active' | 'layers' | 'section' | 'frame' | 'view' | 'playing';
+export type Topic = 'selection' | 'hover' | 'time' | 'before' | 'theme' | 'active' | 'layers' | 'section' | 'frame' | 'view' | 'playing' | 'print';
 
 export class App {
   readonly rig = new CameraRig();
@@ -119,13 +120,16 @@ export class App {
     this.emit('before');
   }
 
-  /** When something moves, s, and the shortest frame time. */
+  /** When something moves, s, and the shortest time between two of its frames in the mean. */
   get timeRange(): { start: number; end: number; rate: number; step: number } | null {
     const ranges = this.scenes.flatMap((s) => (s.model?.header.time ? [s.model.header.time] : []));
     if (ranges.length === 0) return null;
     const start = Math.min(...ranges.map((r) => r.start)), end = Math.max(...ranges.map((r) => r.end));
-    const frames = Math.max(0, ...this.scenes.flatMap((s) => (s.model?.structures ?? []).map((t) => ('times' in t && t.times ? t.times.count : 0))));
-    return { start, end, rate: Math.min(...ranges.map((r) => r.rate ?? 1)), step: (end - start) / (frames > 1 ? frames - 1 : 50) };
+    const steps = this.scenes.flatMap((s) => (s.model?.structures ?? []).flatMap((t) => {
+      const times = 'times' in t && t.times ? s.model!.floats(t.times) : [];
+      return times.length > 1 ? [(times[times.length - 1]! - times[0]!) / (times.length - 1)] : [];
+    }));
+    return { start, end, rate: Math.min(...ranges.map((r) => r.rate ?? 1)), step: steps.length > 0 ? Math.min(...steps) : (end - start) / 50 };
   }
 
   /** What a scene is called: its title, with the options in which it differs from others of the same title. */
@@ -133,9 +137,14 @@ export class App {
     const header = view.model?.header;
     if (!header) return 'not readable';
     const others = this.scenes.flatMap((s) => (s !== view && s.model?.header.title === header.title ? [s.model.header] : []));
-    const text = (value: unknown) => (value === null || value === undefined ? 'not set' : typeof value === 'object' ? JSON.stringify(value) : String(value));
-    const own = (header.options ?? []).filter((o) => others.some((other) => text(other.options?.find((x) => x.name === o.name)?.value) !== text(o.value)));
-    return [header.title, ...own.slice(0, 2).map((o) => `${o.name.replace(/_/g, ' ')} ${text(o.value)}`)].join(' · ');
+    const own = (header.options ?? []).filter((o) => others.some((other) => optionText(other.options?.find((x) => x.name === o.name)?.value) !== optionText(o.value)));
+    return [header.title, ...own.slice(0, 2).map((o) => `${o.name.replace(/_/g, ' ')} ${optionText(o.value, o.unit)}`)].join(' · ');
+  }
+
+  printing = false;
+  setPrinting(on: boolean) {
+    this.printing = on;
+    this.emit('print');
   }
 
   setTime(t: number) {

@@ -64,3 +64,9 @@ export function number(value: number, digits?: number): string {
 export function grouped(value: number): string {
   return Math.round(value).toString().replace(/\B(?=(\d{3})+(?!\d))/g, '\u2009');
 }
+
+/** The value of an option; a share has the unit 1, which is none to read. */
+export function optionText(value: unknown, unit?: string): string {
+  if (value === null || value === undefined || value === '') return 'not set';
+  return (typeof value === 'object' ? JSON.stringify(value) : String(value)) + (unit && unit !== '1' ? ` ${unit}` : '');
+}

@@ -69,6 +69,7 @@ async function start(root: HTMLElement): Promise<void> {
     announce(selection ? `${nameIn(app.current, selection)} selected` : 'Nothing selected');
   });
   app.setDark(app.dark);
+  matchMedia('print').addEventListener('change', (e) => app.setPrinting(e.matches));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', (e) => app.setDark(e.matches));
   app.setFading(app.viewports.some((v) => v.fadingHelps));
   app.viewports.forEach((v) => v.resize(v.canvas.parentElement!.clientWidth, v.canvas.parentElement!.clientHeight));

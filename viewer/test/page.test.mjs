@@ -259,7 +259,7 @@ test('a table of nothing in the scene selects nothing, and scrolls by keys', asy
 test('scenes of one title are told apart by the options that differ; what is not set has no unit', async () => {
   const at = (value) => cuboidsScene({ options: [{ name: 'gap', value, unit: 'm' }, { name: 'fill', value: 0.7, unit: '1' }, { name: 'noise', value: null, unit: 'm' }] });
   const { page, close } = await open(browser, 'options', pageOf('two', [at(0.01), at(0.02)]));
-  assert.deepEqual(await page.locator('.stage-label').allInnerTexts(), ['ABoxes of frame.json · gap 0.01', 'BBoxes of frame.json · gap 0.02']);
+  assert.deepEqual(await page.locator('.stage-label').allInnerTexts(), ['ABoxes of frame.json · gap 0.01 m', 'BBoxes of frame.json · gap 0.02 m']);
   await page.getByRole('tab', { name: 'How it was made' }).click();
   assert.deepEqual(await page.locator('.options b').allInnerTexts(), ['0.01 m', '0.7', 'not set']);
   await close();

@@ -47,9 +47,9 @@ function legendOf(view: SceneView, layer: Layer): { key: string; element: HTMLEl
 
 export function legend(app: App, view: SceneView): HTMLElement {
   // Where there is room its heading is not needed; on a phone it is folded.
-  const wide = matchMedia('(min-width: 800px)').matches;
+  const wide = matchMedia('(min-width: 800px)');
   const body = h('div', { class: 'legend-body' });
-  const card = h('details', { class: 'card legend', 'aria-label': 'Legend', open: wide }, h('summary', {}, 'Legend'), body);
+  const card = h('details', { class: 'card legend', 'aria-label': 'Legend', open: wide.matches }, h('summary', {}, 'Legend'), body);
   const draw = () => {
     const parts = new Map<string, HTMLElement>();
     for (const layer of view.viewport!.layers.values()) {
@@ -60,6 +60,7 @@ export function legend(app: App, view: SceneView): HTMLElement {
     card.hidden = parts.size === 0;
     body.replaceChildren(...[...parts.values()].slice(0, 3));
   };
+  wide.addEventListener('change', () => (card.open = wide.matches));
   app.on('layers', draw);
   draw();
   return card;

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 // How the result was made: command, times, energies, options, input.
 import type { App, SceneView } from '../app';
-import { h, number } from '../dom';
+import { h, number, optionText } from '../dom';
 
 function bars(title: string, unit: string, values: Record<string, unknown> | undefined): HTMLElement | null {
   const entries = Object.entries(values ?? {}).filter((e): e is [string, number] => typeof e[1] === 'number');
@@ -29,11 +29,6 @@ async function copyText(text: string, button: HTMLButtonElement) {
   const before = button.textContent;
   button.textContent = 'Copied';
   window.setTimeout(() => (button.textContent = before), 1500);
-}
-
-function optionText(value: unknown, unit: string | undefined): string {
-  if (value === null || value === undefined || value === '') return 'not set';
-  return (typeof value === 'object' ? JSON.stringify(value) : String(value)) + (unit && unit !== '1' ? ` ${unit}` : '');
 }
 
 export function madePanel(_app: App, view: SceneView): HTMLElement {

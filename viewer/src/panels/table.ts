@@ -100,6 +100,6 @@ export function tablePanel(app: App, view: SceneView, table: Table): HTMLElement
   }, scroller);
   draw(true);
   new ResizeObserver(() => draw()).observe(scroller);
-  matchMedia('print').addEventListener('change', (e) => draw(true, e.matches));
+  app.on('print', () => draw(true, app.printing), scroller);
   return h('section', { class: 'block' }, h('h3', {}, table.title, h('span', { class: 'count' }, String(table.rows.length))), scroller);
 }

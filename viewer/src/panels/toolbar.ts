@@ -25,7 +25,7 @@ function sectionPopover(app: App): HTMLElement {
     else {
       const [low, high] = range(axis);
       slider.value = String(Math.round(((at - low) / (high - low || 1)) * 1000));
-      value.textContent = `${axis} = ${number(at + (app.viewports[0]?.model.header.offset?.['xyz'.indexOf(axis)] ?? 0), 2)} m`;
+      value.textContent = `${axis} = ${number(at + (app.viewports[0]?.model.header.offset?.['xyz'.indexOf(axis)] ?? 0), 2)}${app.rig.flat ? '' : ' m'}`;
     }
   };
   app.on('section', show);
