@@ -70,42 +70,51 @@ void with_planes_of_points(PointSource& source, const Reach& reach, const VoxelG
   });
 }
 
+/// What a first look at the source tells.
+struct Look {
+  Survey survey;
+  Space space;
+  Scale scale;
+  double rounding = 0;       ///< m, of the coordinates
+  bool use_normals = false;  ///< those of the input
+};
+
+Look look_at(PointSource& source, const Options& options, Context& context, Arrangement& result) {
+  const Stage stage(context, result.summary, "survey");
+  const SourceInfo info = source.info();
+  const bool estimated = !options.scale && !options.relative_scale;
+  Look look;
+  look.survey = survey(source, context);
+  check_distinct(look.survey, info.name);
+  look.space = space_of(look.survey, info.two_dimensional);
+  look.scale = choose_scale(source, look.survey, look.space, options, context);
+  look.rounding = std::max(rounding_of(look.survey), look.scale.step);
+  look.use_normals = normals_usable(look.survey, look.space, context);
+  result.scale = look.scale.scale;
+  result.two_dimensional = look.space.is_2d();
+  if (info.has_normals && !look.use_normals) context.warn("input normals are not usable; they are estimated instead");
+  if (look.space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
+  if (estimated)
+    context.message(fmt::format("scale {:.4g}{unit}, estimated from spacing and noise; points may lie {:.4g}{unit} from their plane", result.scale, look.scale.tolerance,
+                                fmt::arg("unit", look.space.is_2d() ? "" : " m")));
+  warn_of_rounding(look.survey, result.scale, context);
+  if (estimated) warn_of_units(look.survey, look.space, result.scale, context);
+  result.summary.counts = {{"points", look.survey.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0}, {"finite", look.survey.finite}, {"duplicates", look.survey.duplicates}};
+  return look;
+}
+
 void arrange(PointSource& source, const Options& options, Context& context, const AssignmentSink& sink,
              Arrangement& result) {
   Summary& summary = result.summary;
-  const SourceInfo info = source.info();
   const AngleSet angles = angles_of(options);
-  const std::optional<Vec3> viewpoint = viewpoint_of(options, info);
-  const bool estimated = !options.scale && !options.relative_scale;
+  const std::optional<Vec3> viewpoint = viewpoint_of(options, source.info());
   for (const double a : options.angles) result.angles.push_back(radians(a));
   result.lambda = options.lambda;
 
-  Survey seen;
-  Space space;
-  bool use_normals = false;
-  double tolerance = 0, rounding = 0, levels = 0;
-  {
-    Stage stage(context, summary, "survey");
-    seen = survey(source, context);
-    check_distinct(seen, info.name);
-    space = space_of(seen, info.two_dimensional);
-    const Scale scale = choose_scale(source, seen, space, options, context);
-    result.scale = scale.scale;
-    tolerance = scale.tolerance;
-    levels = scale.step;
-    rounding = rounding_of(seen);
-    use_normals = normals_usable(seen, space, context);
-    result.two_dimensional = space.is_2d();
-    if (info.has_normals && !use_normals) context.warn("input normals are not usable; they are estimated instead");
-    if (space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
-    if (estimated)
-      context.message(fmt::format("scale {:.4g}{unit}, estimated from spacing and noise; points may lie {:.4g}{unit} from their plane", result.scale, tolerance,
-                                  fmt::arg("unit", space.is_2d() ? "" : " m")));
-    warn_of_rounding(seen, result.scale, context);
-    if (estimated) warn_of_units(seen, space, result.scale, context);
-    summary.counts = {{"points", seen.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0},
-                      {"finite", seen.finite}, {"duplicates", seen.duplicates}};
-  }
+  const Look look = look_at(source, options, context, result);
+  const Survey& seen = look.survey;
+  const Space& space = look.space;
+  const double tolerance = look.scale.tolerance;
   VoxelGrid grid;
   {
     Stage stage(context, summary, "voxels");
@@ -114,9 +123,9 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       context.warn(fmt::format("{} of {} points lie far from all others and are left out", voxels.outside(), seen.finite));
     grid = VoxelGrid(voxels, context);
     grid.tolerance = tolerance;
-    grid.rounding = std::max(rounding, levels);
-    check_not_collinear(grid, space, info.name);
-    if (!use_normals) grid.normals.clear();
+    grid.rounding = look.rounding;
+    check_not_collinear(grid, space, source.info().name);
+    if (!look.use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());
   }
   Cells cells;
@@ -145,7 +154,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   Reach reach;
   {
     Stage stage(context, summary, "refit");
-    reach = find_reach(model, grid, cells, use_normals, context);
+    reach = find_reach(model, grid, cells, look.use_normals, context);
     PlaneSums points(model, result.scale);
     with_planes_of_points(source, reach, grid, true, seen, context, [&](const PointCloud& block, std::size_t first, std::vector<int>& plane) {
       drop_doubtful(reach, grid, block, plane, context);
@@ -174,7 +183,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
     for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
     summary.counts[3].second = result.planes.size();
-    warn_of_few(source, seen, space, estimated, result, context);
+    warn_of_few(source, seen, space, !options.scale && !options.relative_scale, result, context);
   }
   Stage stage(context, summary, "relations");
   find_relations(angles, result);
