@@ -41,7 +41,7 @@ void add_table(SceneBuilder& scene, const Arrangement& a, const Vec3& shift) {
   if (!flat) columns.push_back(column("tag"));
   columns.push_back(column(flat ? "length" : "area", flat ? "" : "m²", 3));
   columns.push_back(column("points"));
-  columns.push_back(column("rms", flat ? "" : "mm", 2));
+  columns.push_back(column("rms", flat ? "" : "mm", flat ? -1 : 2));  // four digits of a drawing's
   columns.push_back(column("frame"));
   columns.push_back(column("direction"));
   for (int axis = 0; axis < 3; ++axis)
