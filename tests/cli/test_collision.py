@@ -6,6 +6,7 @@ import json
 import unittest
 
 from harness import CliTest, contents
+from scene import scenes_of
 
 
 class Collision(CliTest):
@@ -37,6 +38,25 @@ class Collision(CliTest):
         self.assertEqual(run.returncode, 4, run.stderr)
         self.assertIn("no collision", run.stderr + run.stdout)
         self.assertEqual(json.loads((self.folder / "out/result.json").read_text())["impacts"], [])
+        page, = scenes_of(self.folder / "out/report.html")
+        self.assertEqual(page.header["verdict"], "no collision was found")
+        self.assertNotIn("Bodies at the impact", [table["title"] for table in page.header["tables"]])
+
+    def test_what_the_model_does_not_explain_is_shown_as_no_impact(self):
+        run = self.unseen("synth", "collision", "-o", "shot", "--scene", "flight", "--video=false", "--seed", "7")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        run = self.unseen("collision", "shot/shot.json", "-o", "out")
+        self.assertEqual(run.returncode, 4, run.stderr)
+        self.assertFalse(json.loads((self.folder / "out/result.json").read_text())["fits"])
+        self.assertIn("does not explain the impact", run.stdout)
+        self.assertNotIn("kinetic energy", run.stdout)
+        page, = scenes_of(self.folder / "out/report.html")
+        self.assertEqual(page.header["verdict"], "no value of the restitution can be relied on")
+        self.assertNotIn("impulses", [s["id"] for s in page.header["structures"]])
+        titles = [table["title"] for table in page.header["tables"]]
+        self.assertNotIn("Impacts", titles)
+        self.assertNotIn("Bodies at the impact", titles)
+        self.assertNotIn("kinetic energy kept", [fact["name"] for fact in page.header["facts"]])
 
     def test_what_is_no_video_is_bad_input(self):
         (self.folder / "junk.mp4").write_text("junk")

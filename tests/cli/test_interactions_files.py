@@ -23,6 +23,8 @@ class Interactions(CliTest):
         return self.folder / out, run
 
     def test_the_files_agree(self):
+        run = self.unseen("synth", "interactions", "-o", "room", "--seconds", "12", "--seed", "2", "--quiet")  # somebody sits on a couch, whose seat is not its middle
+        self.assertEqual(run.returncode, 0, run.stderr)
         out, run = self.solve()
         self.assertEqual({p.name for p in out.iterdir() if not p.name.startswith(".")}, {"result.json", "report.html", "scene.glb", "motion.bvh", "evidence.png"})
         result = json.loads((out / "result.json").read_text())
@@ -33,15 +35,21 @@ class Interactions(CliTest):
         pelvis = numpy.array(person["frames"][0]["joints"][6])
         numpy.testing.assert_allclose([float(v) for v in lines[at + 3].split()[:3]], 100 * pelvis[[0, 2, 1]] * [1, 1, -1], atol=1e-3)
         names = {node["name"] for node in glb_json(out / "scene.glb")["nodes"]}
+        places = []
         for item in result["objects"]:
             self.assertIn(f"{item['category']} {item['id']}", names)
-            self.assertIn(f"{item['category']} at ", run.stdout)
+            place = f"{item['center'][0]:.2f}, {item['center'][1]:.2f}"
+            self.assertIn(f"{item['category']} at {place} m", run.stdout)
+            places.append(place)
         self.assertIn("person 0 left knee", names)
         self.assertTrue((out / "evidence.png").read_bytes().startswith(b"\x89PNG"))
         scene, = scenes_of(out / "report.html")
         self.assertEqual(scene.header["title"], "Interactions of room")
         self.assertEqual(scene.header["command"], "unseen interactions room/take.json -o out")
         self.assertEqual(scene.header["summary"], result["summary"])
+        table, = (t for t in scene.header["tables"] if t["title"] == "Objects")
+        column = [c["name"] for c in table["columns"]].index("place")
+        self.assertEqual([row[column] for row in table["rows"]], places)
 
     def test_view_writes_the_same_page_again(self):
         out, _ = self.solve("--smoothness=false")
