@@ -10,6 +10,7 @@
 #include "cuboids/box_fit.h"
 #include "cuboids/reach.h"
 #include "cuboids/slabs.h"
+#include "cuboids/tints.h"
 #include "unseen/core/error.h"
 
 namespace unseen::cuboids {
@@ -120,6 +121,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     cuboid.label = part.label;
     cuboid.stack = part.stack;
     cuboid.level = part.level;
+    cuboid.tint = plain_tint(seen, points);
     cuboid.object = object_of(part);
     const auto density = frame.densities.find(part.label);
     cuboid.density = density == frame.densities.end() ? options.density : density->second;

@@ -8,6 +8,7 @@
 #include "cuboids/complete.h"
 #include "cuboids/groove.h"
 #include "cuboids/hypotheses.h"
+#include "cuboids/tints.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -74,6 +75,7 @@ bool is_groove(const DepthView& view, const OrientedBox& gap, int apart) {
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
   if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack && a.level != b.level)) return std::nullopt;
   if (!a.label.empty()) return joined_object(view, a, b, tolerance);
+  if (a.tint && b.tint && are_other_tints(*a.tint, *b.tint)) return std::nullopt;
   const auto axes_b = aligned_axes(a.initial, b.initial);
   if (!axes_b) return std::nullopt;
   const double share = static_cast<double>(a.visible_points) / static_cast<double>(a.visible_points + b.visible_points);

@@ -8,6 +8,7 @@
 
 #include "cuboids/join_surfaces.h"
 #include "cuboids/observation.h"
+#include "cuboids/plain_colors.h"
 #include "cuboids/stack_levels.h"
 #include "cuboids/strokes.h"
 #include "cuboids/supports.h"
@@ -107,7 +108,11 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   Stacks stacks = no_stacks(seen);
   if (!masked) {
     std::vector<int> joined = join_surfaces(seen, group, stacks.piece_of_point);
-    if (!frame.is_fused()) stacks = find_stacks(seen, components(seen, joined), context);
+    if (!frame.is_fused()) {
+      const std::vector<std::vector<int>> parts = components(seen, joined);
+      stacks = find_stacks(seen, parts, context);
+      find_plain_colors(frame, seen, parts, stacks, context);
+    }
     if (stacks.stack_of_piece.size() > 1) joined = join_surfaces(seen, group, stacks.piece_of_point);
     const int first = static_cast<int>(labels.size()) + 2;
     for (std::size_t i = 0; i < object.size(); ++i)

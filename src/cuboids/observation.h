@@ -23,6 +23,7 @@ struct Observation {
   std::vector<int> pixel_of_point;   ///< index into the depth image; empty for a fused cloud
   std::vector<int> support_of_point; ///< index into supports, −1 = none
   std::vector<int> point_of_pixel;   ///< −1 = none; empty for a fused cloud
+  std::vector<Vec2> tints;           ///< of the pixels (tints.h); empty without colours, and for a fused cloud
   PointGraph graph;                  ///< neighbours, normals (world) and noise of the points
 };
 

@@ -7,6 +7,7 @@
 #include "cuboids/depth_noise.h"
 #include "cuboids/observation.h"
 #include "cuboids/supports.h"
+#include "cuboids/tints.h"
 #include "unseen/core/error.h"
 #include "unseen/core/quantile.h"
 
@@ -220,6 +221,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
   for (Vec3& n : seen.graph.normals) n = T.rotation * n;
   seen.pixel_of_point = measured.pixel_of_point;
   seen.point_of_pixel = measured.point_of_pixel;
+  seen.tints = tints_of(frame);
   return seen;
 }
 

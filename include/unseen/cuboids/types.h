@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Cuboid {
   std::size_t visible_points = 0;
   double density = 300.0;  ///< kg/m³
   std::string label;       ///< of the mask or stroke it came from, or empty
+  std::optional<Vec2> tint;    ///< of what was seen of it, if that is of one plain colour: a and b of CIELAB under a light of one strength
   int stack = -1, level = -1;  ///< boxes on different levels of the stack with this number were seen to be different ones; −1 = in none
   int object = -1;         ///< boxes with the same number are pieces of one thing, and rigid together; −1 = a thing of its own
   bool by_symmetry = false;  ///< wholly unseen, completed by symmetry (thesis Section 4.4.1)
