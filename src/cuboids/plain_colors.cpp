@@ -3,6 +3,7 @@
 #include "cuboids/plain_colors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cuboids/color_regions.h"
@@ -15,7 +16,8 @@ namespace {
 constexpr double kEnd = 0.02;         // quantile of the points, that counts as the end of a region
 constexpr double kRoomSigmas = 3.0;   // about an extent
 constexpr double kWithin = 0.9;       // of a region's points, in the extent of another one
-constexpr double kInLine = 0.2;       // of the lesser size, by which the ends of what is in line differ at most
+constexpr double kInLine = 0.2;       // of the lesser size, by which the ends of pieces of one thing differ at most
+constexpr double kBand = 0.6;         // of the lesser size, that a band between them is long at most
 constexpr double kMostOff = 0.15;     // of a part's points, that are not on the sides of the boxes of its regions
 constexpr std::size_t kSamplesOfRegion = 400;
 
@@ -53,18 +55,23 @@ double share_within(const Observation& seen, const Directions& directions, const
   return static_cast<double>(within) / static_cast<double>(points.size());
 }
 
-/// Whether one goes on where the other ends, as wide and as high.
-bool are_in_line(const Extent& a, const Extent& b) {
-  const Vec3 off = (a.low - b.low).cwiseAbs().cwiseMax((a.high - b.high).cwiseAbs()), size = (a.high - a.low).cwiseMin(b.high - b.low);
-  int same = 0;
-  for (int k = 0; k < 3; ++k) same += off[k] < kInLine * size[k] + a.room;
-  return same >= 2;
+/// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
+/// than either is long.
+bool go_on(const Extent& a, const Extent& b) {
+  const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = (a.high - a.low).cwiseMin(b.high - b.low);
+  const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
+  int alike = 0, apart = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (gap[k] > 0.0) apart += gap[k] < kBand * size[k];
+    else alike += std::min(low[k], high[k]) < kInLine * size[k] + a.room;
+  }
+  return alike == 2 && apart == 1;
 }
 
 /// The regions that lie between two, as a print across one thing of their colour; none if others reach in.
 std::vector<std::size_t> bands_between(const Observation& seen, const Directions& directions, const std::vector<ColorRegion>& regions,
                                        const std::vector<Extent>& extents, std::size_t a, std::size_t b) {
-  if (are_other_tints(regions[a].tint, regions[b].tint) || !are_in_line(extents[a], extents[b])) return {};
+  if (are_other_tints(regions[a].tint, regions[b].tint) || !go_on(extents[a], extents[b])) return {};
   const Extent both{extents[a].low.cwiseMin(extents[b].low), extents[a].high.cwiseMax(extents[b].high), extents[a].room};
   std::vector<std::size_t> between;
   for (std::size_t c = 0; c < regions.size(); ++c) {
@@ -116,9 +123,23 @@ double off_box(const Observation& seen, const ColorRegion& region) {
   return count * (1.0 - static_cast<double>(on) / static_cast<double>(samples.size()));
 }
 
-/// The boxes of plain colours that a part consists of; none if it does not.
-std::vector<ColorRegion> plain_boxes(const RgbdFrame& frame, const Observation& seen, std::span<const int> part, std::vector<int>& scratch) {
+/// Of each support that was seen, in the middle.
+std::vector<Tint> tints_of_supports(const Observation& seen) {
+  std::vector<std::array<std::vector<double>, 2>> values(seen.supports.size());
+  for (std::size_t i = 0; i < seen.points.size(); ++i)
+    for (int k = 0; seen.support_of_point[i] >= 0 && k < 2; ++k) values[seen.support_of_point[i]][k].push_back(seen.tints[seen.pixel_of_point[i]][k]);
+  std::vector<Tint> tints;
+  for (auto& [a, b] : values)
+    if (!a.empty()) tints.emplace_back(median(std::move(a)), median(std::move(b)));
+  return tints;
+}
+
+/// The boxes of plain colours that a part consists of; none if it does not. What has the colour of a support may be that: the picture may be shifted
+/// against the depth image, or of another scale.
+std::vector<ColorRegion> plain_boxes(const RgbdFrame& frame, const Observation& seen, std::span<const Tint> supports, std::span<const int> part, std::vector<int>& scratch) {
   std::vector<ColorRegion> regions = color_regions(frame, seen, part, scratch);
+  for (const ColorRegion& region : regions)
+    if (std::any_of(supports.begin(), supports.end(), [&](const Tint& tint) { return (region.tint - tint).norm() < kSameTint; })) return {};
   const std::vector<Sample> samples = some_samples(seen, part);
   if (regions.size() < 2 || samples.empty()) return {};
   const Directions directions{across_front(samples)};
@@ -133,11 +154,12 @@ std::vector<ColorRegion> plain_boxes(const RgbdFrame& frame, const Observation& 
 
 void find_plain_colors(const RgbdFrame& frame, const Observation& seen, const std::vector<std::vector<int>>& parts, Stacks& stacks, const Context& context) {
   if (seen.tints.empty()) return;
+  const std::vector<Tint> supports = tints_of_supports(seen);
   std::vector<int> scratch(seen.points.size(), -2);
   int stack = *std::max_element(stacks.stack_of_piece.begin(), stacks.stack_of_piece.end()) + 1;
   for (const std::vector<int>& part : parts) {
     context.check();
-    const std::vector<ColorRegion> boxes = plain_boxes(frame, seen, part, scratch);
+    const std::vector<ColorRegion> boxes = plain_boxes(frame, seen, supports, part, scratch);
     if (boxes.empty()) continue;
     for (const int i : part) stacks.piece_of_point[i] = 0;
     for (const ColorRegion& box : boxes) {

@@ -3,6 +3,9 @@
 // Parts of one box that something before it divides.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <optional>
+
 #include "cuboids/complete.h"
 #include "perception_scenes.h"
 
@@ -33,7 +36,7 @@ Scene board_on_crate(double lean, double aside) {
 }
 
 /// What is left of a crate, fitted too deep by so much (m), and the two parts of a board that are seen above and beside it.
-std::vector<Cuboid> fused(const Scene& scene, double aside, double too_deep) {
+std::vector<Cuboid> fused(const Scene& scene, double aside, double too_deep, const std::array<std::optional<Vec2>, 2>& tints = {}) {
   const RgbdFrame frame = render(scene);
   Context context;
   const Observation seen = observe(frame, {}, context);
@@ -52,6 +55,7 @@ std::vector<Cuboid> fused(const Scene& scene, double aside, double too_deep) {
   cuboids[2].initial.half_size.x() = 0.06;
   cuboids[2].initial.center += 0.5 * (edge - 0.3) * board.axes.col(2) + side * 0.14 * board.axes.col(0);
   for (Cuboid& cuboid : cuboids) cuboid.visible_points = 1000;
+  for (int k = 0; k < 2; ++k) cuboids[k + 1].tint = tints[k];
   std::vector<double> tolerance = contact_tolerance(view, cuboids);
   fuse_pieces(view, cuboids, tolerance);
   return cuboids;
@@ -66,6 +70,13 @@ TEST(Fuse, ABoardThatLeansOnACrateAndIsSeenAboveAndBesideItIsOne) {
         ASSERT_EQ(cuboids.size(), 2u) << lean << " " << aside << " " << too_deep;
         EXPECT_LT((cuboids[1].initial.half_size - scene.boxes[1].half_size).cwiseAbs().maxCoeff(), 1e-3) << lean << " " << aside << " " << too_deep;
       }
+}
+
+TEST(Fuse, WhatHasOtherColoursIsNotOne) {
+  const Scene scene = board_on_crate(14.0, 0.15);
+  EXPECT_EQ(fused(scene, 0.15, 0.0, {Vec2(30, 10), Vec2(-20, 10)}).size(), 3u);
+  EXPECT_EQ(fused(scene, 0.15, 0.0, {Vec2(30, 10), Vec2(27, 9)}).size(), 2u);
+  EXPECT_EQ(fused(scene, 0.15, 0.0, {Vec2(30, 10), std::nullopt}).size(), 2u);
 }
 
 }  // namespace

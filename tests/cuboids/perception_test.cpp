@@ -252,7 +252,9 @@ TEST(Objects, StrokesPartWhatTouches) {
   Scene scene;  // two boxes side by side, flush in front and above: only colour tells them apart
   scene.boxes = {upright(-0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0), upright(0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0)};
   RgbdFrame frame = render(scene);
-  EXPECT_EQ(perceive(frame).fitted.size(), 1u);
+  RgbdFrame gray = frame;
+  gray.color.clear();
+  EXPECT_EQ(perceive(gray).fitted.size(), 1u);
   const RigidTransform T = camera_of(scene).inverse();
   for (const double x : {-0.06, 0.06}) {
     Stroke stroke{x < 0 ? "left" : "right", {}};

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <gtest/gtest.h>
+
+#include <array>
+#include <functional>
+
+#include "cuboids/tints.h"
+#include "perception_scenes.h"
+
+namespace unseen::cuboids::test {
+namespace {
+
+using Color = std::array<double, 3>;  // linear, 0 … 1
+constexpr Color kRed{0.6, 0.12, 0.1}, kGreen{0.15, 0.5, 0.15}, kBlue{0.1, 0.2, 0.6}, kYellow{0.6, 0.5, 0.08}, kBrown{0.5, 0.3, 0.15}, kWhite{0.7, 0.7, 0.7};
+
+std::array<std::uint8_t, 3> srgb(const Color& color, double light) {
+  std::array<std::uint8_t, 3> out{};
+  for (int k = 0; k < 3; ++k) out[k] = static_cast<std::uint8_t>(std::lround(255.0 * std::pow(color[k] * light, 1.0 / 2.2)));
+  return out;
+}
+
+/// The scene with what lies on the boxes painted by place and side (2 · axis + (positive side)), each side under a light of its own.
+RgbdFrame painted(const Scene& scene, const std::function<Color(const Vec3& world, int side)>& paint) {
+  RgbdFrame frame = render(scene);
+  const RigidTransform T = camera_of(scene);
+  for (int v = 0; v < scene.image_height; ++v)
+    for (int u = 0; u < scene.width; ++u) {
+      auto& pixel = frame.color[static_cast<std::size_t>(v) * scene.width + u];
+      pixel = srgb({0.2, 0.2, 0.2}, 1.0);
+      const Vec3 ray = T.rotation * frame.camera.unproject(u, v, 1.0);
+      double nearest = ray.z() < 0.0 ? -scene.height / ray.z() : std::numeric_limits<double>::infinity();
+      for (const OrientedBox& box : scene.boxes)
+        if (const auto [t, side] = hit(box, T.translation, ray); t < nearest) nearest = t, pixel = srgb(paint(T * (frame.camera.unproject(u, v, 1.0) * t), side), side == 5 ? 1.0 : 0.45 + 0.1 * side);
+    }
+  return frame;
+}
+
+/// Boxes side by side and one upon another, flush on all sides; `first` is the lower left one.
+Scene wall(int along, int up, const Vec3& size) {
+  Scene scene;
+  scene.height = 0.8;
+  for (int k = 0; k < up; ++k)
+    for (int i = 0; i < along; ++i) scene.boxes.push_back(upright((i - 0.5 * (along - 1)) * size.x(), 1.2, k * size.z(), size, 0));
+  return scene;
+}
+
+TEST(PlainColors, PartFlushBoxes) {
+  const Vec3 book(0.06, 0.16, 0.24);
+  const Scene row = wall(4, 1, book);
+  const std::array colors{kRed, kGreen, kBlue, kYellow};
+  const std::vector<Cuboid> books = perceive(painted(row, [&](const Vec3& p, int) { return colors[std::clamp(static_cast<int>(std::floor(p.x() / book.x() + 2.0)), 0, 3)]; })).cuboids;
+  ASSERT_EQ(books.size(), 4u);
+  for (const OrientedBox& box : row.boxes) EXPECT_LT(size_error(nearest(books, box.center).box, box), 0.012);
+  EXPECT_EQ(perceive(painted(row, [](const Vec3&, int) { return kBrown; })).cuboids.size(), 1u);
+}
+
+TEST(PlainColors, PartBricksOfAWall) {
+  const Vec3 brick(0.2, 0.1, 0.09);
+  const Scene scene = wall(3, 3, brick);
+  const std::array colors{kRed, kGreen, kBlue, kYellow, kBrown};
+  const std::vector<Cuboid> bricks = perceive(painted(scene, [&](const Vec3& p, int) {
+                                       const int i = std::clamp(static_cast<int>(std::floor(p.x() / brick.x() + 1.5)), 0, 2), k = std::clamp(static_cast<int>(std::floor(p.z() / brick.z())), 0, 2);
+                                       return colors[(i + 2 * k) % 5];
+                                     })).cuboids;
+  ASSERT_EQ(bricks.size(), 9u);
+  for (const OrientedBox& box : scene.boxes) {
+    const OrientedBox& found = nearest(bricks, box.center).box;
+    EXPECT_NEAR(2.0 * found.half_size.head<2>().maxCoeff(), 0.2, 0.012);
+    EXPECT_NEAR(2.0 * found.half_size.z(), 0.09, 0.012);
+  }
+}
+
+/// Labels, bands, sides of other colours: one box all the same.
+TEST(PlainColors, PrintsAreNoBoxes) {
+  Scene scene;
+  scene.height = 0.8;
+  scene.boxes = {upright(0, 1.2, 0, {0.3, 0.2, 0.24}, 0)};
+  const auto label = [](const Vec3& p, int side) { return side != 5 && std::abs(p.x()) < 0.08 && std::abs(p.z() - 0.12) < 0.06 ? kWhite : kRed; };
+  const auto band = [](const Vec3& p, int) { return std::abs(p.x()) < 0.03 ? kBlue : kYellow; };
+  const auto belt = [](const Vec3& p, int side) { return side != 5 && std::abs(p.z() - 0.12) < 0.02 ? kGreen : kRed; };
+  const auto lid = [](const Vec3&, int side) { return side == 5 ? kBlue : kYellow; };
+  const auto spots = [](const Vec3& p, int) { return std::fmod(p.x() + p.y() + 10.0, 0.02) < 0.01 ? kBlue : kYellow; };
+  for (const auto& [name, paint] : std::initializer_list<std::pair<const char*, std::function<Color(const Vec3&, int)>>>{
+           {"label", label}, {"band", band}, {"belt", belt}, {"lid", lid}, {"spots", spots}}) {
+    const std::vector<Cuboid> cuboids = perceive(painted(scene, paint)).cuboids;
+    ASSERT_EQ(cuboids.size(), 1u) << name;
+    EXPECT_LT(size_error(cuboids[0].box, scene.boxes[0]), 0.01) << name;
+  }
+}
+
+TEST(Tints, AreThoseOfAnyLight) {
+  RgbdFrame frame;
+  frame.camera = {500, 500, 0, 0, 60, 20};
+  const std::array colors{kRed, kGreen, kBlue, kYellow, kBrown, kWhite};
+  for (int v = 0; v < 20; ++v)
+    for (int u = 0; u < 60; ++u) frame.color.push_back(srgb(colors[u / 10], v < 10 ? 1.0 : 0.4));
+  const std::vector<Tint> tints = tints_of(frame);
+  for (int k = 0; k < 6; ++k) {
+    const Tint& light = tints[5 * 60 + 10 * k + 5];
+    EXPECT_LT(difference(light, tints[15 * 60 + 10 * k + 5]), 1.5) << k;
+    for (int j = 0; j < k; ++j) EXPECT_TRUE(are_other_tints(light, tints[5 * 60 + 10 * j + 5])) << j << " " << k;
+  }
+  frame.color.clear();
+  EXPECT_TRUE(tints_of(frame).empty());
+}
+
+TEST(Tints, OfPlainThingsAreKnown) {
+  Observation seen;
+  std::vector<int> points;
+  for (int i = 0; i < 100; ++i) {
+    points.push_back(i);
+    seen.pixel_of_point.push_back(i);
+    seen.tints.push_back(i < 15 ? Tint(40, 0) : Tint(0, 40));
+  }
+  ASSERT_TRUE(plain_tint(seen, points));
+  EXPECT_EQ(*plain_tint(seen, points), Tint(0, 40));
+  for (int i = 15; i < 40; ++i) seen.tints[i] = {40, 0};
+  EXPECT_FALSE(plain_tint(seen, points));
+  seen.tints.clear();
+  EXPECT_FALSE(plain_tint(seen, points));
+}
+
+}  // namespace
+}  // namespace unseen::cuboids::test
