@@ -57,7 +57,7 @@ double share_within(const Observation& seen, const Directions& directions, const
 
 /// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
 /// than either is long.
-bool go_on(const Extent& a, const Extent& b) {
+bool goes_on(const Extent& a, const Extent& b) {
   const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = (a.high - a.low).cwiseMin(b.high - b.low);
   const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
   int alike = 0, apart = 0;
@@ -71,7 +71,7 @@ bool go_on(const Extent& a, const Extent& b) {
 /// The regions that lie between two, as a print across one thing of their colour; none if others reach in.
 std::vector<std::size_t> bands_between(const Observation& seen, const Directions& directions, const std::vector<ColorRegion>& regions,
                                        const std::vector<Extent>& extents, std::size_t a, std::size_t b) {
-  if (are_other_tints(regions[a].tint, regions[b].tint) || !go_on(extents[a], extents[b])) return {};
+  if (are_other_tints(regions[a].tint, regions[b].tint) || !goes_on(extents[a], extents[b])) return {};
   const Extent both{extents[a].low.cwiseMin(extents[b].low), extents[a].high.cwiseMax(extents[b].high), extents[a].room};
   std::vector<std::size_t> between;
   for (std::size_t c = 0; c < regions.size(); ++c) {
