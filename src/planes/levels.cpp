@@ -107,13 +107,17 @@ std::optional<Levels> find_levels(const LargeVector<Vec3>& points, const Vec3& a
 
 }  // namespace
 
-double step_of_levels(const Survey& survey, const Space& space, const std::vector<Probe>& probes, double scale) {
+double step_of_levels(const Survey& survey, const Space& space, const std::vector<Probe>& probes, double scale, const Context& context) {
   if (space.is_2d()) return 0.0;
+  const std::vector<Vec3> axes = axes_of_levels(probes);
+  std::vector<double> steps(axes.size(), 0.0);
+  parallel_blocks(context, axes.size(), 1, [&](std::size_t a, std::size_t) {
+    const std::optional<Levels> levels = find_levels(survey.sample, axes[a], kLeastStep * scale);
+    if (levels && is_of_depth(probes, axes[a], space))
+      steps[a] = weighted_median(probes, space, [&](const Probe& p) { return levels->step_at(survey.sample[p.index]); });
+  });
   double widest = 0, second = 0;
-  for (const Vec3& axis : axes_of_levels(probes)) {
-    const std::optional<Levels> levels = find_levels(survey.sample, axis, kLeastStep * scale);
-    if (!levels || !is_of_depth(probes, axis, space)) continue;
-    const double step = weighted_median(probes, space, [&](const Probe& p) { return levels->step_at(survey.sample[p.index]); });
+  for (const double step : steps) {
     second = std::max(second, std::min(step, widest));
     widest = std::max(widest, step);
   }

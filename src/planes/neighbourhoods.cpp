@@ -79,16 +79,44 @@ class Cover {
   std::vector<std::vector<std::size_t>> reaching_;
 };
 
+/// The nearest points that a search has found so far, as a heap: in a sorted list, each of some hundred would move half of the others.
+class Nearest {
+ public:
+  using DistanceType = double;
+
+  explicit Nearest(std::size_t most) : most_(most) { found_.reserve(most); }
+  std::size_t size() const { return found_.size(); }
+  bool full() const { return found_.size() == most_; }
+  double worstDist() const { return full() ? found_.front().first : std::numeric_limits<double>::infinity(); }
+  bool addPoint(double squared, std::uint32_t index) {
+    if (full()) {
+      std::pop_heap(found_.begin(), found_.end());
+      found_.pop_back();
+    }
+    found_.emplace_back(squared, index);
+    std::push_heap(found_.begin(), found_.end());
+    return true;
+  }
+  /// By rising distance.
+  std::vector<std::pair<double, std::uint32_t>> sorted() && {
+    std::sort_heap(found_.begin(), found_.end());
+    return std::move(found_);
+  }
+
+ private:
+  std::size_t most_;
+  std::vector<std::pair<double, std::uint32_t>> found_;
+};
+
 }  // namespace
 
 SampleTree::SampleTree(const Survey& survey) : sample_{survey.sample}, tree_(3, sample_, {10}) {}
 
 Neighbourhood SampleTree::around(std::size_t probe, std::size_t points) const {
-  std::vector<std::uint32_t> index(points);
-  std::vector<double> squared(points);
-  index.resize(tree_.knnSearch(sample_.points[probe].data(), points, index.data(), squared.data()));
+  Nearest nearest(points);
+  tree_.findNeighbors(nearest, sample_.points[probe].data(), {});
   Neighbourhood result;
-  for (const std::uint32_t i : index) result.push_back(sample_.points[i]);
+  for (const auto& [squared, i] : std::move(nearest).sorted()) result.push_back(sample_.points[i]);
   return result;
 }
 

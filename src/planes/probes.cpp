@@ -60,9 +60,8 @@ Probe probe(const Neighbourhood& n, std::size_t index, const Space& space) {
 
 }  // namespace
 
-std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::size_t count, std::size_t most,
+std::vector<Probe> probe_sample(const Survey& survey, const SampleTree& tree, const Space& space, std::size_t count, std::size_t most,
                                 const Context& context) {
-  const SampleTree tree(survey);
   std::vector<Probe> probes(std::min(count, survey.sample.size()));
   parallel_blocks(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -82,9 +81,8 @@ std::vector<Probe> probe_few(const Survey& survey, const Space& space, std::size
   return probes;
 }
 
-std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,
+std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const SampleTree& tree, const Space& space,
                                 std::size_t count, std::size_t most, const Context& context) {
-  const SampleTree tree(survey);
   const std::vector<Neighbourhood> near = neighbourhoods(source, survey, tree, count, most, context);
   std::vector<Probe> probes;
   for (std::size_t i = 0; i < near.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "planes/neighbourhoods.h"
 #include "planes/scale.h"
 #include "planes/weighted.h"
 
@@ -20,13 +21,13 @@ struct Probe {
   std::size_t index = 0;  ///< in the sample
 };
 
-/// Probes of the sample; of each the nearest `most` points count.
-std::vector<Probe> probe_sample(const Survey& survey, const Space& space, std::size_t count, std::size_t most,
+/// Probes of the sample; of each the nearest `most` points count. `tree`: of the sample, as below.
+std::vector<Probe> probe_sample(const Survey& survey, const SampleTree& tree, const Space& space, std::size_t count, std::size_t most,
                                 const Context& context);
 
 /// The same among all points of the source. Where even `most` of them are no flat disc, and where points are too sparse to be gathered, those of
 /// the sample tell.
-std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const Space& space,
+std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const SampleTree& tree, const Space& space,
                                 std::size_t count, std::size_t most, const Context& context);
 
 /// Some hundred probes of the sample, of each the nearest kFewestNeighbours.

@@ -54,14 +54,14 @@ struct Turns {
   std::vector<Vec3> gradient;
 };
 
-Turns turns_of(const Model& model) {
+/// `variances`: of the tilts of each surface.
+Turns turns_of(const Model& model, const std::vector<std::pair<double, double>>& variances) {
   // Levenberg's damping: what no surface determines does not turn far in one step.
   Turns t{std::vector<Mat3>(model.frames.size(), Mat3::Identity() / (kLoose * kLoose)),
           std::vector<Vec3>(model.frames.size(), Vec3::Zero())};
-  for (const Surface& surface : model.surfaces) {
-    const Patch& s = surface.support;
-    const auto [variance_u, variance_v] = tilt_variances(s);
-    for (const TiltResidual& r : tilt_residuals(s.fit, model.normal(surface), variance_u, variance_v)) {
+  for (std::size_t i = 0; i < model.surfaces.size(); ++i) {
+    const Surface& surface = model.surfaces[i];
+    for (const TiltResidual& r : tilt_residuals(surface.support.fit, model.normal(surface), variances[i].first, variances[i].second)) {
       const double weight = r.weight / std::max(1.0, std::abs(r.value) * std::sqrt(r.weight) / kOdd);
       t.information[surface.frame] += weight * r.jacobian * r.jacobian.transpose();
       t.gradient[surface.frame] += weight * r.value * r.jacobian;
@@ -133,9 +133,11 @@ int failing_frame(const Model& model, const std::vector<OrientationFrame>& start
 void refit(Model& model) {
   if (model.surfaces.empty()) return;
   const std::vector<OrientationFrame> start = model.frames;
+  std::vector<std::pair<double, double>> variances;
+  for (const Surface& s : model.surfaces) variances.push_back(tilt_variances(s.support));
   while (true) {
     for (int iteration = 0; iteration < kIterations; ++iteration) {
-      const std::vector<Vec3> step = step_of(model, turns_of(model));
+      const std::vector<Vec3> step = step_of(model, turns_of(model, variances));
       double farthest = 0;
       for (std::size_t f = 0; f < model.frames.size(); ++f) {
         model.frames[f].axes = turned(model.frames[f].axes, step[f]);

@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "planes/levels.h"
-#include "planes/neighbourhoods.h"
 #include "planes/probes.h"
 #include "unseen/core/error.h"
 
@@ -25,16 +24,18 @@ constexpr double kWideFlat = 0.2, kMostNoise = 0.8;         // if this flat (rms
 constexpr double kStepsSpanned = 2.5;                              // that a scale must span, so that a slant is no staircase
 
 /// Noise (m) over wider neighbourhoods, of those that are flat: correlated noise, and how far scans are out of register, show only there.
-double wide_noise(const Survey& survey, const Space& space, const std::vector<Probe>& probes) {
-  const SampleTree tree(survey);
+double wide_noise(const SampleTree& tree, const Space& space, const std::vector<Probe>& probes, const Context& context) {
+  std::vector<PlaneFit> fits((probes.size() + kWideEvery - 1) / kWideEvery);
+  parallel_blocks(context, fits.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Moments m;
+      for (const Vec3& p : tree.around(probes[i * kWideEvery].index, kWide)) m += Moments{1.0, p, Mat3::Zero()};
+      fits[i] = fit_plane(m, space);
+    }
+  });
   std::vector<std::pair<double, double>> noise;  // by area
-  for (std::size_t i = 0; i < probes.size(); i += kWideEvery) {
-    const Neighbourhood n = tree.around(probes[i].index, kWide);
-    Moments m;
-    for (std::size_t k = 0; k < n.size(); ++k) m += Moments{1.0, n[k], Mat3::Zero()};
-    const PlaneFit fit = fit_plane(m, space);
-    if (fit.rms < kWideFlat * fit.spread_v) noise.emplace_back(fit.rms, probes[i].spacing * probes[i].spacing);
-  }
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    if (fits[i].rms < kWideFlat * fits[i].spread_v) noise.emplace_back(fits[i].rms, std::pow(probes[i * kWideEvery].spacing, 2));
   return noise.empty() ? std::numeric_limits<double>::infinity() : weighted_quantile(std::move(noise), kMostNoise);
 }
 
@@ -51,17 +52,18 @@ double scale_by(const std::vector<Probe>& probes, const Space& space) {
 }  // namespace
 
 Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context) {
-  std::vector<Probe> probes = survey.share < 1.0 ? probe_source(source, survey, space, kProbes, kMostNeighbours, context)
-                                                 : probe_sample(survey, space, kProbes, kMostNeighbours, context);
+  const SampleTree tree(survey);
+  std::vector<Probe> probes = survey.share < 1.0 ? probe_source(source, survey, tree, space, kProbes, kMostNeighbours, context)
+                                                 : probe_sample(survey, tree, space, kProbes, kMostNeighbours, context);
   if (!space.is_2d())
     if (std::vector<Probe> flat = flat_ones(probes, space);
         static_cast<double>(flat.size()) > kFewestFlat * static_cast<double>(probes.size()) && kPlants * scale_by(flat, space) < scale_by(probes, space))
       probes = std::move(flat);
   const double noise = noise_of(probes, space), scale = std::clamp(scale_by(probes, space), 1e-4 * survey.extent(), 0.1 * survey.extent());
-  const double step = step_of_levels(survey, space, probes, scale);
+  const double step = step_of_levels(survey, space, probes, scale, context);
   Scale result{scale, scale};
   if (step == 0.0 && !space.is_2d() && kNoise * noise < scale)
-    result.tolerance = std::min(scale, std::max(kLeastTolerance * scale, kNoise * wide_noise(survey, space, probes)));
+    result.tolerance = std::min(scale, std::max(kLeastTolerance * scale, kNoise * wide_noise(tree, space, probes, context)));
   if (kStepsSpanned * step > scale) result = {kStepsSpanned * step, kStepsSpanned * step, step};
   return result;
 }
