@@ -16,12 +16,13 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr int kFewestPointsOfSide = 24;
+constexpr std::size_t kFewestPointsOfSide = 24;
 constexpr double kVoxelSigmas = 3.0;
 constexpr double kFinestVoxel = 0.005;  // of the radius of the objects
 constexpr double kFarthest = 100.0;     // m
 constexpr double kOnSurfaceSigmas = 3.0, kOnSurface = 0.8;  // of the points of a remnant
 constexpr double kRemnant = 0.25;                            // of the points of what it is a remnant of, at most
+constexpr double kUnbroken = 2.0;                            // spacing and σ, between points that carry a box down
 constexpr double kSlender = 16.0, kSlenderLength = 2.0;      // σ, of a post's width at most, and widths, of its length at least
 
 /// Bounding radius of the objects, supports left out.
@@ -34,11 +35,14 @@ double radius_of(const Observation& seen, const std::vector<ObjectPart>& parts) 
 
 double bottom_of(const OrientedBox& box) { return box.center.z() - box.half_size.z(); }
 
-/// What ends just above the ground stands on it: its lowest slice counts as ground's.
-OrientedBox set_down(const Observation& seen, std::span<const int> points, OrientedBox box) {
+/// How far (m) above the ground the points of what stands on it may end: the lowest slice counts as ground's.
+double height_of_end(const Observation& seen, std::span<const int> points) {
+  return 5.0 * mean_sigma(seen, points) + 2.0 * seen.graph.spacing[points.front()];
+}
+
+OrientedBox set_down(OrientedBox box, double height) {
   const double bottom = bottom_of(box);
-  const double reach = 5.0 * mean_sigma(seen, points) + 2.0 * seen.graph.spacing[points.front()];
-  if (box.axes(2, 2) < 1.0 - 1e-9 || std::abs(bottom) > reach) return box;
+  if (box.axes(2, 2) < 1.0 - 1e-9 || std::abs(bottom) > height) return box;
   box.center.z() -= 0.5 * bottom;
   box.half_size.z() += 0.5 * bottom;
   return box;
@@ -78,11 +82,37 @@ std::vector<char> find_remnants(const Observation& seen, const std::vector<Objec
   return remnant;
 }
 
+/// An upright box carried down to where the points right below it end that are of no box, where these fill what is added.
+OrientedBox carried_down(const Observation& seen, const DepthView& view, std::span<const int> boxless, OrientedBox box, double fill) {
+  if (box.axes(2, 2) < 1.0 - 1e-9) return box;
+  std::vector<double> height;
+  double gap = 0;
+  for (const int i : boxless) {
+    const Vec3 local = box.axes.transpose() * (seen.points[i] - box.center);
+    if ((local.head<2>().cwiseAbs() - box.half_size.head<2>()).maxCoeff() > kNearSurface * seen.graph.sigma[i] || seen.points[i].z() > bottom_of(box)) continue;
+    height.push_back(seen.points[i].z());
+    gap = std::max(gap, kUnbroken * (static_cast<double>(seen.graph.spacing[i]) + seen.graph.sigma[i]));
+  }
+  if (height.size() < kFewestPointsOfSide) return box;
+  std::sort(height.rbegin(), height.rend());
+  double end = bottom_of(box);
+  for (const double z : height)
+    if (end - z < gap) end = z;
+  const double half_down = 0.5 * (bottom_of(box) - end);
+  OrientedBox below = box;
+  below.half_size.z() = half_down;
+  below.center.z() = end + half_down;
+  if (filled_share(view, below, 0.5 * half_down) < fill) return box;
+  box.center.z() -= half_down;
+  box.half_size.z() += half_down;
+  return box;
+}
+
 /// Whether a box ends nearer to what lies below it than to the ground.
 bool stands_on_another(const std::vector<Cuboid>& cuboids, const OrientedBox& box) {
   return std::any_of(cuboids.begin(), cuboids.end(), [&](const Cuboid& other) {
-    if (bottom_of(other.box) > bottom_of(box) || other.box.center.z() > bottom_of(box)) return false;
-    const auto gap = reach(box, 4, solid_of(other.box), 0.0);
+    if (bottom_of(other.initial) > bottom_of(box) || other.initial.center.z() > bottom_of(box)) return false;
+    const auto gap = reach(box, 4, solid_of(other.initial), 0.0);
     return gap && *gap < bottom_of(box);
   });
 }
@@ -101,7 +131,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
   for (const Face& face : faces.faces) faces_of[group[face.points.front()]].push_back(&face);
 
   const double finest = kFinestVoxel * radius_of(seen, parts);
-  std::vector<OrientedBox> set_downs;
+  std::vector<double> end_heights;
   for (const auto& [label, density] : frame.densities)
     if (std::none_of(parts.begin(), parts.end(), [&](const ObjectPart& part) { return part.label == label; }))
       context.warn(fmt::format("densities: \"{}\" is the label of no object in the picture: its density is not used", label));
@@ -116,7 +146,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
       throw InputError(frame.name, "depth", "a box of over 100 m", "metres after division by depth_scale");
     Cuboid cuboid;
     cuboid.id = static_cast<int>(seen.supports.size() + cuboids.size());
-    cuboid.box = cuboid.initial = box;
+    cuboid.initial = box;
     cuboid.visible_points = points.size();
     cuboid.label = part.label;
     cuboid.stack = part.stack;
@@ -126,9 +156,10 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     const auto density = frame.densities.find(part.label);
     cuboid.density = density == frame.densities.end() ? options.density : density->second;
     cuboids.push_back(cuboid);
-    set_downs.push_back(set_down(seen, points, box));
+    end_heights.push_back(height_of_end(seen, points));
   };
   std::vector<OrientedBox> boxes;
+  std::vector<int> boxless;  // points of parts too hollow for any
   const auto voxel_of = [&](const ObjectPart& part) { return std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest); };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
@@ -140,7 +171,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const double voxel = voxel_of(parts[k]);
     if (top[k] >= 0) boxes[k] = bound_along(seen, view, parts[k].points, faces_of[k], boxes[k].axes, boxes[top[k]].axes, voxel);
-    full.push_back(filled_share(view, set_down(seen, parts[k].points, boxes[k]), voxel) >= options.fill);
+    full.push_back(filled_share(view, set_down(boxes[k], height_of_end(seen, parts[k].points)), voxel) >= options.fill);
   }
   const std::vector<char> remnant = find_remnants(seen, parts, boxes, full);
   if (const auto count = std::count(remnant.begin(), remnant.end(), 1); count > 0)
@@ -154,11 +185,14 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
       continue;
     }
     const double voxel = voxel_of(part);
-    for (const std::vector<int>& slab : split_into_slabs(seen, view, part.points, set_down(seen, part.points, boxes[k]), voxel, options.fill))
-      add(part, slab, bound(seen, view, slab, {}, boxes[k].axes, voxel));
+    const std::vector<std::vector<int>> slabs = split_into_slabs(seen, view, part.points, set_down(boxes[k], height_of_end(seen, part.points)), voxel, options.fill);
+    for (const std::vector<int>& slab : slabs) add(part, slab, bound(seen, view, slab, {}, boxes[k].axes, voxel));
+    if (slabs.empty()) boxless.insert(boxless.end(), part.points.begin(), part.points.end());
   }
+  for (Cuboid& cuboid : cuboids) cuboid.initial = carried_down(seen, view, boxless, cuboid.initial, options.fill);
   for (std::size_t i = 0; i < cuboids.size(); ++i)
-    if (!stands_on_another(cuboids, cuboids[i].initial)) cuboids[i].box = cuboids[i].initial = set_downs[i];
+    if (!stands_on_another(cuboids, cuboids[i].initial)) cuboids[i].initial = set_down(cuboids[i].initial, end_heights[i]);
+  for (Cuboid& cuboid : cuboids) cuboid.box = cuboid.initial;
   return cuboids;
 }
 

@@ -234,6 +234,35 @@ TEST(Boxes, AnLShapedThingBecomesTwoSlabsOutOfFreeSpace) {
   }
 }
 
+/// A far thing whose end below `cut` (m) went to what lies beside it; together these are too hollow for a box, and each too little.
+std::vector<Cuboid> fit_with_end_beside(const std::vector<OrientedBox>& boxes, double cut) {
+  Scene scene;
+  scene.focal = 300.0;
+  scene.height = 1.2;
+  scene.boxes = boxes;
+  const RgbdFrame frame = render(scene);
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  std::vector<ObjectPart> parts(2);
+  for (std::size_t i = 0; i < seen.points.size(); ++i)
+    if (seen.support_of_point[i] < 0) parts[seen.points[i].z() < cut || seen.points[i].x() > 0.1].points.push_back(static_cast<int>(i));
+  const DepthView view(frame, seen.T_world_camera, depth_noise(frame, {}));
+  return fit_cuboids(frame, seen, parts, view, {}, context);
+}
+
+TEST(Boxes, AreCarriedDownToTheEndOfWhatIsOfNoBox) {
+  const OrientedBox beside = upright(0.3, 1.7, 0, {0.06, 0.06, 0.03}, 0);
+  const std::vector<Cuboid> cup = fit_with_end_beside({upright(0, 1.7, 0, {0.08, 0.08, 0.12}, 0), beside}, 0.05);
+  ASSERT_EQ(cup.size(), 1u);
+  EXPECT_NEAR(cup[0].box.center.z() - cup[0].box.half_size.z(), 0.0, 1e-9);
+  EXPECT_NEAR(cup[0].box.half_size.z(), 0.06, 0.005);
+  // Not where legs leave free space between them.
+  const std::vector<Cuboid> stool = fit_with_end_beside({upright(0, 1.7, 0.1, {0.16, 0.12, 0.06}, 0), upright(-0.07, 1.65, 0, {0.02, 0.02, 0.1}, 0),
+                                                         upright(0.07, 1.65, 0, {0.02, 0.02, 0.1}, 0), beside}, 0.1);
+  ASSERT_EQ(stool.size(), 1u);
+  EXPECT_GT(stool[0].box.center.z() - stool[0].box.half_size.z(), 0.08);
+}
+
 TEST(Boxes, ADensityOfNothingInThePictureIsRemarkedOn) {
   Scene scene;
   scene.boxes = {upright(0, 0.8, 0, {0.1, 0.1, 0.1}, 0)};
