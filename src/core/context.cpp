@@ -8,6 +8,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 #include "unseen/core/error.h"
 
@@ -49,6 +54,34 @@ Stage::~Stage() {
   summary_.seconds.emplace_back(context_.stage_, elapsed.count());
 }
 
+#if defined(__SANITIZE_THREAD__)
+namespace {
+
+/// ThreadSanitizer does not see how TBB hands over work, as that is not compiled for it: blocks on threads that it sees.
+void run_on_own_threads(std::size_t threads, std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& body) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr failure;
+  std::mutex failing;
+  const auto work = [&] {
+    try {
+      for (std::size_t begin; (begin = next.fetch_add(grain)) < count;) body(begin, std::min(begin + grain, count));
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      if (!failure) failure = std::current_exception();
+      next = count;
+    }
+  };
+  {
+    std::vector<std::jthread> workers;
+    for (std::size_t t = 1; t < threads; ++t) workers.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+#endif
+
 void parallel_blocks(const Context& context, std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
@@ -60,6 +93,9 @@ void parallel_blocks(const Context& context, std::size_t count, std::size_t grai
     for (std::size_t begin = 0; begin < count; begin += grain) guarded(begin, std::min(begin + grain, count));
     return;
   }
+#if defined(__SANITIZE_THREAD__)
+  run_on_own_threads(static_cast<std::size_t>(context.threads > 0 ? context.threads : tbb::info::default_concurrency()), count, grain, guarded);
+#else
   const auto run = [&] {
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, grain),
@@ -71,6 +107,7 @@ void parallel_blocks(const Context& context, std::size_t count, std::size_t grai
   } else {
     run();
   }
+#endif
 }
 
 }  // namespace unseen
