@@ -3,6 +3,7 @@
 #include "planes/neighbourhoods.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -87,9 +88,14 @@ class Nearest {
   explicit Nearest(std::size_t most) : most_(most) { found_.reserve(most); }
   std::size_t size() const { return found_.size(); }
   bool full() const { return found_.size() == most_; }
-  double worstDist() const { return full() ? found_.front().first : std::numeric_limits<double>::infinity(); }
+  /// What is nearer than this is added: also what is just as far, as its place in the sample decides.
+  double worstDist() const {
+    constexpr double kFarthest = std::numeric_limits<double>::infinity();
+    return full() ? std::nextafter(found_.front().first, kFarthest) : kFarthest;
+  }
   bool addPoint(double squared, std::uint32_t index) {
     if (full()) {
+      if (std::pair{squared, index} > found_.front()) return true;
       std::pop_heap(found_.begin(), found_.end());
       found_.pop_back();
     }

@@ -15,7 +15,7 @@ using Neighbourhood = std::vector<Vec3>;
 class SampleTree {
  public:
   explicit SampleTree(const Survey& survey);
-  /// At most `points` points around one of the sample.
+  /// At most `points` points around one of the sample; of those just as far, the ones that come first in the sample.
   Neighbourhood around(std::size_t probe, std::size_t points) const;
 
  private:

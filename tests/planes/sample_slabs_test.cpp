@@ -32,8 +32,13 @@ Neighbourhood by_brute_force(const LargeVector<Vec3>& sample, std::size_t probe,
 
 void expect_as_by_brute_force(const Survey& survey) {
   const SampleSlabs slabs(survey);
+  const SampleTree tree(survey);
   for (std::size_t probe = 0; probe < survey.sample.size(); probe += 1 + survey.sample.size() / 50)
-    for (const std::size_t points : {1, 7, 100}) EXPECT_EQ(slabs.around(probe, points), by_brute_force(survey.sample, probe, points)) << probe;
+    for (const std::size_t points : {1, 7, 100}) {
+      const Neighbourhood nearest = by_brute_force(survey.sample, probe, points);
+      EXPECT_EQ(slabs.around(probe, points), nearest) << probe;
+      EXPECT_EQ(tree.around(probe, points), nearest) << probe;
+    }
 }
 
 TEST(SampleSlabs, FindsTheNearestPoints) {
