@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "cuboids/box_axes.h"
@@ -102,7 +103,7 @@ OrientedBox carried_down(const Observation& seen, const DepthView& view, std::sp
   OrientedBox below = box;
   below.half_size.z() = half_down;
   below.center.z() = end + half_down;
-  if (filled_share(view, below, 0.5 * half_down) < fill) return box;
+  if (half_down <= 0.0 || filled_share(view, below, 0.5 * half_down) < fill) return box;
   box.center.z() -= half_down;
   box.half_size.z() += half_down;
   return box;
@@ -159,7 +160,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     end_heights.push_back(height_of_end(seen, points));
   };
   std::vector<OrientedBox> boxes;
-  std::vector<int> boxless;  // points of parts too hollow for any
+  std::map<std::string, std::vector<int>> boxless;  // by label: points of parts too hollow for any
   const auto voxel_of = [&](const ObjectPart& part) { return std::max(kVoxelSigmas * mean_sigma(seen, part.points), finest); };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
@@ -187,9 +188,9 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
     const double voxel = voxel_of(part);
     const std::vector<std::vector<int>> slabs = split_into_slabs(seen, view, part.points, set_down(boxes[k], height_of_end(seen, part.points)), voxel, options.fill);
     for (const std::vector<int>& slab : slabs) add(part, slab, bound(seen, view, slab, {}, boxes[k].axes, voxel));
-    if (slabs.empty()) boxless.insert(boxless.end(), part.points.begin(), part.points.end());
+    if (slabs.empty()) boxless[part.label].insert(boxless[part.label].end(), part.points.begin(), part.points.end());
   }
-  for (Cuboid& cuboid : cuboids) cuboid.initial = carried_down(seen, view, boxless, cuboid.initial, options.fill);
+  for (Cuboid& cuboid : cuboids) cuboid.initial = carried_down(seen, view, boxless[cuboid.label], cuboid.initial, options.fill);
   for (std::size_t i = 0; i < cuboids.size(); ++i)
     if (!stands_on_another(cuboids, cuboids[i].initial)) cuboids[i].initial = set_down(cuboids[i].initial, end_heights[i]);
   for (Cuboid& cuboid : cuboids) cuboid.box = cuboid.initial;
