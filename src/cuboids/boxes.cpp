@@ -41,12 +41,19 @@ double height_of_end(const Observation& seen, std::span<const int> points) {
   return 5.0 * mean_sigma(seen, points) + 2.0 * seen.graph.spacing[points.front()];
 }
 
-OrientedBox set_down(OrientedBox box, double height) {
-  const double bottom = bottom_of(box);
-  if (box.axes(2, 2) < 1.0 - 1e-9 || std::abs(bottom) > height) return box;
-  box.center.z() -= 0.5 * bottom;
-  box.half_size.z() += 0.5 * bottom;
+bool is_upright(const OrientedBox& box) { return box.axes(2, 2) >= 1.0 - 1e-9; }
+
+/// An upright box whose bottom alone is lower, by so much (m).
+OrientedBox lowered(OrientedBox box, double by) {
+  box.center.z() -= 0.5 * by;
+  box.half_size.z() += 0.5 * by;
   return box;
+}
+
+/// What ends no higher than that above the ground (m), on it.
+OrientedBox set_down(const OrientedBox& box, double height) {
+  const double bottom = bottom_of(box);
+  return is_upright(box) && std::abs(bottom) <= height ? lowered(box, bottom) : box;
 }
 
 /// Whether noise leaves open how an upright box is turned.
@@ -84,8 +91,8 @@ std::vector<char> find_remnants(const Observation& seen, const std::vector<Objec
 }
 
 /// An upright box carried down to where the points right below it end that are of no box, where these fill what is added.
-OrientedBox carried_down(const Observation& seen, const DepthView& view, std::span<const int> boxless, OrientedBox box, double fill) {
-  if (box.axes(2, 2) < 1.0 - 1e-9) return box;
+OrientedBox carried_down(const Observation& seen, const DepthView& view, std::span<const int> boxless, const OrientedBox& box, double fill) {
+  if (!is_upright(box)) return box;
   std::vector<double> height;
   double gap = 0;
   for (const int i : boxless) {
@@ -99,14 +106,11 @@ OrientedBox carried_down(const Observation& seen, const DepthView& view, std::sp
   double end = bottom_of(box);
   for (const double z : height)
     if (end - z < gap) end = z;
-  const double half_down = 0.5 * (bottom_of(box) - end);
+  const double down = bottom_of(box) - end;
   OrientedBox below = box;
-  below.half_size.z() = half_down;
-  below.center.z() = end + half_down;
-  if (half_down <= 0.0 || filled_share(view, below, 0.5 * half_down) < fill) return box;
-  box.center.z() -= half_down;
-  box.half_size.z() += half_down;
-  return box;
+  below.half_size.z() = 0.5 * down;
+  below.center.z() = end + 0.5 * down;
+  return down > 0.0 && filled_share(view, below, 0.25 * down) >= fill ? lowered(box, down) : box;
 }
 
 /// Whether a box ends nearer to what lies below it than to the ground.

@@ -234,8 +234,9 @@ TEST(Boxes, AnLShapedThingBecomesTwoSlabsOutOfFreeSpace) {
   }
 }
 
-/// A far thing whose end below `cut` (m) went to what lies beside it; together these are too hollow for a box, and each too little.
-std::vector<Cuboid> fit_with_end_beside(const std::vector<OrientedBox>& boxes, double cut) {
+/// Boxes around the parts, 0 or 1, that `part_of` puts the points of far things into.
+template <class PartOf>
+std::vector<Cuboid> fit_two_parts(const std::vector<OrientedBox>& boxes, PartOf part_of) {
   Scene scene;
   scene.focal = 300.0;
   scene.height = 1.2;
@@ -245,9 +246,22 @@ std::vector<Cuboid> fit_with_end_beside(const std::vector<OrientedBox>& boxes, d
   const Observation seen = observe(frame, {}, context);
   std::vector<ObjectPart> parts(2);
   for (std::size_t i = 0; i < seen.points.size(); ++i)
-    if (seen.support_of_point[i] < 0) parts[seen.points[i].z() < cut || seen.points[i].x() > 0.1].points.push_back(static_cast<int>(i));
+    if (seen.support_of_point[i] < 0) parts[part_of(seen.points[i])].points.push_back(static_cast<int>(i));
   const DepthView view(frame, seen.T_world_camera, depth_noise(frame, {}));
   return fit_cuboids(frame, seen, parts, view, {}, context);
+}
+
+TEST(Boxes, AreNotSetDownThroughWhatTheyStandOn) {
+  const std::vector<Cuboid> fitted = fit_two_parts({upright(0, 1.7, 0, {0.3, 0.3, 0.025}, 0), upright(0, 1.7, 0.025, {0.12, 0.12, 0.15}, 0)},
+                                                   [](const Vec3& p) { return p.z() > 0.035; });
+  ASSERT_EQ(fitted.size(), 2u);
+  EXPECT_NEAR(fitted[0].box.center.z() - fitted[0].box.half_size.z(), 0.0, 1e-9);
+  EXPECT_GT(fitted[1].box.center.z() - fitted[1].box.half_size.z(), 0.02);
+}
+
+/// A thing whose end below `cut` (m) went to what lies beside it; together these are too hollow for a box, and each too little.
+std::vector<Cuboid> fit_with_end_beside(const std::vector<OrientedBox>& boxes, double cut) {
+  return fit_two_parts(boxes, [&](const Vec3& p) { return p.z() < cut || p.x() > 0.1; });
 }
 
 TEST(Boxes, AreCarriedDownToTheEndOfWhatIsOfNoBox) {
