@@ -154,6 +154,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
 }  // namespace
 
 Reconstruction reconstruct(const Shot& shot, const Options& options, Context& context) {
+  check_options(options);
   terms_of(options.physics, options.without);  // an unknown term is told before any work
   Reconstruction result;
   try {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "collision/minkowski.h"
+#include "core/clip_convex.h"
 #include "unseen/core/convex.h"
 
 namespace unseen::collision {
@@ -39,19 +40,11 @@ constexpr double kFlat = 1e-14;  // m²: a corner nearer to a side than rounding
 
 using Polygon = std::vector<Vec2>;
 
-/// The part of a convex polygon (or segment, or point) within another convex one, widened by `margin` (Sutherland & Hodgman).
+/// The part of a convex polygon (or segment, or point) within another convex one, widened by `margin`.
 Polygon within(Polygon subject, const Polygon& window, double margin) {
   for (std::size_t i = 0; i < window.size() && window.size() >= 3; ++i) {
     const Vec2 along = (window[(i + 1) % window.size()] - window[i]).normalized(), inward(-along.y(), along.x());
-    const auto depth = [&](const Vec2& p) { return inward.dot(p - window[i]) + margin; };
-    Polygon kept;
-    for (std::size_t j = 0; j < subject.size(); ++j) {
-      const Vec2 &from = subject[j], &to = subject[(j + 1) % subject.size()];
-      const double a = depth(from), b = depth(to);
-      if (a >= 0.0) kept.push_back(from);
-      if (a * b < 0.0) kept.push_back(from + (to - from) * (a / (a - b)));
-    }
-    subject = std::move(kept);
+    subject = clip_convex(subject, [&](const Vec2& p) { return -inward.dot(p - window[i]) - margin; });
   }
   return subject;
 }

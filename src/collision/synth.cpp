@@ -14,10 +14,7 @@ namespace {
 constexpr int kDraws = 4000;
 
 void check(const SynthOptions& options) {
-  SynthOptions copy = options;
-  OptionTable table = describe(copy);
-  for (const Option& option : table.all())
-    if (!option.text().empty()) table.set_text(option.name, option.text(), "synth");
+  check_options(options, "synth");
   const bool alone = options.scene == "ball-floor" || options.scene == "box-floor" || options.scene == "drag";
   if (alone && options.mass_ratio)
     throw InputError("synth", "mass_ratio", std::to_string(*options.mass_ratio), "nothing, for what " + options.scene + " hits is fixed");

@@ -153,6 +153,11 @@ void OptionTable::set_text(const std::string& name, const std::string& text, con
   set(name, value, source);
 }
 
+void OptionTable::check(const std::string& source) {
+  for (const Option& option : options_)
+    if (const std::string text = option.text(); !text.empty() || !option.choices.empty()) set_text(option.name, text, source);
+}
+
 std::string markdown(const OptionTable& table) {
   std::string text = "| option | unit | default | range | what it does |\n| --- | --- | --- | --- | --- |\n";
   for (const Option& option : table.all())

@@ -7,24 +7,13 @@
 #include <limits>
 #include <vector>
 
+#include "cuboids/clip.h"
 #include "unseen/cuboids/evaluate.h"
 
 namespace unseen::cuboids {
 namespace {
 
 constexpr double kSame = 1e-9;  // m, planes this near are one
-
-/// The part of a convex polygon in space on the inner side of a plane.
-std::vector<Vec3> clip(const std::vector<Vec3>& polygon, const BoxFace& face) {
-  std::vector<Vec3> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double a = face.normal.dot(p - face.center), b = face.normal.dot(q - face.center);
-    if (a <= kSame) kept.push_back(p);
-    if ((a <= kSame) != (b <= kSame)) kept.push_back(p + a / (a - b) * (q - p));
-  }
-  return kept;
-}
 
 bool is_same(const BoxFace& a, const BoxFace& b) {
   return (a.normal - b.normal).norm() < kSame && std::abs(a.normal.dot(b.center - a.center)) < kSame;
@@ -44,7 +33,7 @@ double cone_volume(const std::vector<BoxFace>& a, const std::vector<BoxFace>& b,
     if (skip_shared && std::any_of(b.begin(), b.end(), [&](const BoxFace& f) { return is_same(f, face); })) continue;
     const Vec3 u = face.half_u * face.u, v = face.half_v * face.v;
     std::vector<Vec3> polygon = {face.center - u - v, face.center + u - v, face.center + u + v, face.center - u + v};
-    for (const BoxFace& side : b) polygon = clip(polygon, side);
+    for (const BoxFace& side : b) polygon = clip(polygon, {side.normal, side.normal.dot(side.center) + kSame});
     Vec3 twice = Vec3::Zero();
     for (std::size_t i = 2; i < polygon.size(); ++i)
       twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);

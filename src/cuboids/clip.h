@@ -6,21 +6,14 @@
 #include <cmath>
 #include <vector>
 
+#include "core/clip_convex.h"
 #include "unseen/core/geometry.h"
 
 namespace unseen::cuboids {
 
 /// The part of a convex polygon (counter-clockwise or not, of 2 corners or more) behind a plane.
 inline std::vector<Vec3> clip(const std::vector<Vec3>& polygon, const Plane& plane) {
-  std::vector<Vec3> kept;
-  kept.reserve(polygon.size() + 1);
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3 &p = polygon[i], &q = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-    const double dp = plane.signed_distance(p), dq = plane.signed_distance(q);
-    if (dp <= 0.0) kept.push_back(p);
-    if ((dp < 0.0 && dq > 0.0) || (dp > 0.0 && dq < 0.0)) kept.push_back(p + dp / (dp - dq) * (q - p));
-  }
-  return kept;
+  return clip_convex(polygon, [&](const Vec3& p) { return plane.signed_distance(p); });
 }
 
 /// Least distance between two parallel lines that hold a convex polygon between them.

@@ -182,6 +182,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
 }
 
 Completion complete_cuboids(const RgbdFrame& frame, const Completion& scene, const Options& options, Context& context) {
+  check_options(options);
   Completion start;
   start.T_world_camera = scene.T_world_camera;
   start.supports = scene.supports;

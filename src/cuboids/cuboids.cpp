@@ -41,6 +41,7 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
 }  // namespace
 
 Completion complete_cuboids(const RgbdFrame& frame, const Options& options, Context& context) {
+  check_options(options);
   return run_cuboids(context, {}, [&](Completion& result) {
     const Options exact = with_depth_noise(frame, options, context);
     perceive(frame, exact, context, result);

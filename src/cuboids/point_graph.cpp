@@ -8,8 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <nanoflann.hpp>
 #include <unordered_map>
+
+#include "core/point_tree.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -135,26 +136,16 @@ std::vector<std::pair<int, int>> image_links(const Camera& camera, const Measure
   return pairs;
 }
 
-struct CloudView {
-  const std::vector<Vec3>& points;
-  std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t d) const { return points[i][static_cast<Eigen::Index>(d)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const { return false; }
-};
-
 /// Nearest points of a cloud give links, normals and the spacing.
 std::vector<std::pair<int, int>> cloud_links(const Measured& m, PointGraph& graph, std::optional<double> gap,
                                              const Context& context) {
-  using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, CloudView>, CloudView, 3>;
-  const CloudView view{m.points};
-  const Tree tree(3, view, nanoflann::KDTreeSingleIndexAdaptorParams(16));
+  const PointTree tree(m.points, 16);
   const std::size_t count = m.points.size(), wanted = std::min<std::size_t>(kCloudNeighbours + 1, count);
   std::vector<std::array<unsigned, kCloudNeighbours + 1>> index(count);
   std::vector<std::array<double, kCloudNeighbours + 1>> distance(count);
   const auto block = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      tree.knnSearch(m.points[i].data(), wanted, index[i].data(), distance[i].data());
+      tree.nearest(m.points[i], wanted, index[i].data(), distance[i].data());
       Vec3 sum = Vec3::Zero();
       Mat3 scatter = Mat3::Zero();
       for (std::size_t k = 0; k < wanted; ++k) {

@@ -6,7 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
+
+#include "core/point_tree.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -19,21 +20,8 @@ constexpr double kStill = 1e-5;                       // m and radians: nothing 
 
 }  // namespace
 
-struct SampledSurface::Tree {
-  struct Points {
-    const std::vector<Vec3>& points;
-    std::size_t kdtree_get_point_count() const { return points.size(); }
-    double kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][static_cast<Eigen::Index>(axis)]; }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-      return false;
-    }
-  };
-  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 3, std::uint32_t>;
-
-  explicit Tree(const std::vector<Vec3>& all) : points{all}, index(3, points, {10}) {}
-  Points points;
-  Index index;
+struct SampledSurface::Tree : PointTree<std::vector<Vec3>> {
+  using PointTree::PointTree;
 };
 
 SampledSurface::SampledSurface(std::vector<Vec3> points, std::vector<Vec3> normals)
@@ -44,7 +32,7 @@ SampledSurface::SampledSurface(std::vector<Vec3> points, std::vector<Vec3> norma
   std::vector<std::uint32_t> index(count);
   std::vector<double> squared(count);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const std::size_t found = tree_->index.knnSearch(points_[i].data(), count, index.data(), squared.data());
+    const std::size_t found = tree_->nearest(points_[i], count, index.data(), squared.data());
     Vec3 mean = Vec3::Zero();
     for (std::size_t k = 0; k < found; ++k) mean += points_[index[k]] / static_cast<double>(found);
     Mat3 spread = Mat3::Zero();
@@ -59,7 +47,7 @@ std::optional<int> SampledSurface::nearest(const Vec3& p, double within) const {
   if (points_.empty()) return std::nullopt;
   std::uint32_t index = 0;
   double squared = 0.0;
-  if (tree_->index.knnSearch(p.data(), 1, &index, &squared) == 0 || squared > within * within) return std::nullopt;
+  if (tree_->nearest(p, 1, &index, &squared) == 0 || squared > within * within) return std::nullopt;
   return static_cast<int>(index);
 }
 

@@ -18,10 +18,7 @@ constexpr int kMostBoxes[] = {8, 8, 56};
 const std::vector<std::string> kCounted = {"tower", "twisted", "running-bond"};
 
 void check(const SynthOptions& options) {
-  SynthOptions copy = options;
-  OptionTable table = describe(copy);
-  for (const Option& option : table.all())
-    if (!option.text().empty()) table.set_text(option.name, option.text(), "synth");
+  check_options(options, "synth");
   const auto counted = std::find(kCounted.begin(), kCounted.end(), options.scene);
   if (options.boxes > 0 && counted == kCounted.end())
     throw InputError("synth", "boxes", std::to_string(options.boxes) + " of a " + options.scene,

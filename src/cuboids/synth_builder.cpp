@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clip_convex.h"
 #include "cuboids/box_overlap.h"
 
 namespace unseen::cuboids {
@@ -15,18 +16,6 @@ constexpr double kLeastArea = 1e-4;  // m²
 constexpr double kLeastEdge = 5e-3;  // m
 constexpr double kInside = 1e-3;     // m, an edge counts only so far inside the other's face
 
-/// The part of a convex polygon where direction·p ≤ limit.
-std::vector<Vec2> clip(const std::vector<Vec2>& polygon, const Vec2& direction, double limit) {
-  std::vector<Vec2> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double a = direction.dot(p) - limit, b = direction.dot(q) - limit;
-    if (a <= 0) kept.push_back(p);
-    if ((a < 0 && b > 0) || (a > 0 && b < 0)) kept.push_back(p + a / (a - b) * (q - p));
-  }
-  return kept;
-}
-
 /// m², that two parallel rectangles share.
 double shared_area(const BoxFace& a, const BoxFace& b) {
   std::vector<Vec2> polygon;
@@ -35,8 +24,8 @@ double shared_area(const BoxFace& a, const BoxFace& b) {
     polygon.emplace_back(p.dot(a.u), p.dot(a.v));
   }
   for (const double sign : {-1.0, 1.0}) {
-    polygon = clip(polygon, {sign, 0}, a.half_u);
-    polygon = clip(polygon, {0, sign}, a.half_v);
+    polygon = clip_convex(polygon, [&](const Vec2& p) { return sign * p.x() - a.half_u; });
+    polygon = clip_convex(polygon, [&](const Vec2& p) { return sign * p.y() - a.half_v; });
   }
   double twice = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -49,11 +49,6 @@ void check(const Recording& recording) {
         throw InputError(recording.name, fmt::format("object {}, {}", object.id, part.name), "not a box", "one in metres, within 1 km, its axes at right angles");
 }
 
-void check(SceneletOptions options) {
-  OptionTable table = describe(options);
-  for (const Option& option : table.all()) table.set_text(option.name, option.text(), "scenelets");
-}
-
 bool same(const Scenelet& a, const Scenelet& b) {
   return a.person == b.person && a.center == b.center && a.origin.position == b.origin.position && a.origin.angle == b.origin.angle;
 }
@@ -79,7 +74,7 @@ bool has(const Database& database, const Source& source, const std::vector<const
 }  // namespace
 
 Database build_database(const std::vector<Recording>& recordings, const SceneletOptions& options, Context& context) {
-  check(options);
+  check_options(options, "scenelets");
   Database database;
   for (const Recording& recording : recordings) {
     context.progress(static_cast<double>(database.recordings.size()) / static_cast<double>(recordings.size()));
@@ -100,7 +95,7 @@ Database build_database(const std::vector<Recording>& recordings, const Scenelet
 }
 
 Database join(const std::vector<Database>& databases, const SceneletOptions& options, const Context& context) {
-  check(options);
+  check_options(options, "scenelets");
   Database all;
   for (const Database& database : databases)
     for (std::size_t i = 0; i < database.recordings.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/clip_convex.h"
 #include "unseen/core/convex.h"
 
 namespace unseen::interactions {
@@ -14,14 +15,7 @@ constexpr double kLeastArea = 1e-12;  ///< m²; smaller pieces are rounding
 
 /// The part of a convex polygon that lies left of the line a→b.
 Polygon left_of(const Polygon& polygon, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  Polygon left;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double side_p = cross(along, p - a), side_q = cross(along, q - a);
-    if (side_p >= 0) left.push_back(p);
-    if ((side_p > 0 && side_q < 0) || (side_p < 0 && side_q > 0)) left.push_back(p + side_p / (side_p - side_q) * (q - p));
-  }
+  const Polygon left = clip_convex(polygon, [&](const Vec2& p) { return cross(p - a, b - a); });
   return area(left) > kLeastArea ? left : Polygon{};
 }
 

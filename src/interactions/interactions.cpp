@@ -93,6 +93,7 @@ void solve(const std::vector<Take>& takes, const Database& database, const Optio
 }  // namespace
 
 Reconstruction reconstruct(const std::vector<Take>& takes, const Database& database, const Options& options, Context& context) {
+  check_options(options);
   Reconstruction r;
   if (!takes.empty()) {
     r.camera = takes.front().camera;

@@ -87,10 +87,7 @@ OptionTable describe(SynthOptions& o) {
 }
 
 SynthTake simulate(const SynthOptions& options) {
-  SynthOptions checked = options;
-  OptionTable table = describe(checked);
-  for (const Option& option : table.all()) table.set_text(option.name, option.text(), "synth");
-
+  check_options(options, "synth");
   Random random(static_cast<std::uint64_t>(options.seed));
   const View view = draw_view(options.width, options.height, random);
   Room room;

@@ -116,13 +116,11 @@ class Nearest {
 
 }  // namespace
 
-SampleTree::SampleTree(const Survey& survey) : sample_{survey.sample}, tree_(3, sample_, {10}) {}
-
 Neighbourhood SampleTree::around(std::size_t probe, std::size_t points) const {
   Nearest nearest(points);
-  tree_.findNeighbors(nearest, sample_.points[probe].data(), {});
+  tree_.find(points_[probe], nearest);
   Neighbourhood result;
-  for (const auto& [squared, i] : std::move(nearest).sorted()) result.push_back(sample_.points[i]);
+  for (const auto& [squared, i] : std::move(nearest).sorted()) result.push_back(points_[i]);
   return result;
 }
 

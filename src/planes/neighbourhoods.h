@@ -2,8 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include <nanoflann.hpp>
-
+#include "core/point_tree.h"
 #include "planes/scale.h"
 
 namespace unseen::planes {
@@ -14,22 +13,13 @@ using Neighbourhood = std::vector<Vec3>;
 /// Finds neighbourhoods in a survey's sample, which it refers to.
 class SampleTree {
  public:
-  explicit SampleTree(const Survey& survey);
+  explicit SampleTree(const Survey& survey) : points_(survey.sample), tree_(points_) {}
   /// At most `points` points around one of the sample; of those just as far, the ones that come first in the sample.
   Neighbourhood around(std::size_t probe, std::size_t points) const;
 
  private:
-  struct Sample {
-    const LargeVector<Vec3>& points;
-    std::size_t kdtree_get_point_count() const { return points.size(); }
-    double kdtree_get_pt(std::size_t i, std::size_t a) const { return points[i][a]; }
-    template <class Box>
-    bool kdtree_get_bbox(Box&) const {
-      return false;
-    }
-  };
-  Sample sample_;
-  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Sample>, Sample, 3> tree_;
+  const LargeVector<Vec3>& points_;
+  PointTree<LargeVector<Vec3>> tree_;
 };
 
 /// Neighbourhoods, of at most `points` points each, of the first points of a survey's sample among all points

@@ -200,6 +200,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
 }  // namespace
 
 Arrangement find_planes(PointSource& source, const Options& options, Context& context, const AssignmentSink& sink) {
+  check_options(options);
   Arrangement result;
   try {
     arrange(source, options, context, sink, result);

@@ -15,14 +15,6 @@
 namespace unseen::planes {
 namespace {
 
-/// Passes every value through the table, so that values set in code meet the same limits as those from a
-/// file.
-void check(const SynthOptions& options) {
-  SynthOptions copy = options;
-  OptionTable table = describe(copy);
-  for (const Option& option : table.all()) table.set_text(option.name, option.text(), "synth");
-}
-
 SynthModel make_model(const SynthOptions& options) {
   if (options.scene == "lhouse") return make_lhouse(options);
   if (options.scene == "stairs") return make_stairs(options);
@@ -103,7 +95,7 @@ PointCloud sample_floorplan(const SynthModel& model, const SynthOptions& options
 }
 
 SynthScene make_scene(const SynthOptions& options, Context& context) {
-  check(options);
+  check_options(options, "synth");
   SynthModel model = make_model(options);
   if (options.scanners > 0 && static_cast<std::size_t>(options.scanners) < model.scanners.size())
     model.scanners.resize(static_cast<std::size_t>(options.scanners));

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/shortened.h"
 #include "unseen/core/error.h"
 
@@ -42,6 +44,16 @@ OptionTable table_of(Sample& s) {
   table.add({"angles", &s.angles, "deg", "", 1, 180, {}});
   table.add({"range", &s.range, "m", "", 0, 9, {}, {"near", "far"}, true});
   return table;
+}
+
+OptionTable describe(Sample& s) { return table_of(s); }
+
+TEST(Options, ValuesSetInCodeMeetTheSameLimits) {
+  EXPECT_NO_THROW(check_options(Sample{}));
+  EXPECT_NO_THROW(check_options(Sample{.count = 9, .scale = 0.1 + 0.2, .angles = {}}));
+  for (const Sample& bad : {Sample{.count = 10}, Sample{.share = std::nan("")}, Sample{.scale = 0.0}, Sample{.solver = ""}, Sample{.solver = "best"},
+                            Sample{.angles = {90, 181}}, Sample{.range = {1}}, Sample{.range = {2, 1}}})
+    EXPECT_THROW(check_options(bad), InputError);
 }
 
 TEST(Options, TextSetsEveryKind) {

@@ -46,6 +46,8 @@ class OptionTable {
   void set(const std::string& name, const OptionInput& value, const std::string& source);
   /// The same from text, as a command line gives it: "0.05", "true", "60,90".
   void set_text(const std::string& name, const std::string& text, const std::string& source);
+  /// Throws like set() if a value that an option holds, and code may have set, is not legal.
+  void check(const std::string& source);
   /// The current value of an option as text; throws like set() if there is none of that name.
   std::string text_of(const std::string& name) const { return find(name, "").text(); }
 
@@ -53,6 +55,12 @@ class OptionTable {
   const Option& find(const std::string& name, const std::string& source) const;
   std::vector<Option> options_;
 };
+
+/// Values set in code meet the same limits as those of a file or a command line: throws like OptionTable::set().
+template <class Options>
+void check_options(Options options, const std::string& source = "options") {
+  describe(options).check(source);
+}
 
 /// The table as Markdown: option, unit, default, range, what it does.
 std::string markdown(const OptionTable& table);
