@@ -75,9 +75,11 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
     if (along > 0.2 && along > 5.0 * across) remarks.push_back(fmt::format("{}: its speed along the view ray is known to ±{:.1f} m/s only", name, along));
     if (!problem.solids[o].is_sphere() && !problem.turns(o)) remarks.push_back(fmt::format("{}: how it turns is not known; the impact is taken as one of its centre", name));
     const bool found = std::none_of(shot.orientations.begin(), shot.orientations.end(), [&](const auto& given) { return given.body == o; });
-    const std::optional<double> alike = nearly_alike_sides(shot.bodies[o]);
-    if (alike && found && problem.turns(o))
-      remarks.push_back(fmt::format("{}: two of its sides differ by {:.0f} % only; it may be turned by 90° about the third", name, 100.0 * *alike));
+    if (!found || !problem.turns(o)) continue;
+    if (const auto share = nearly_alike_sides(shot.bodies[o]))
+      remarks.push_back(fmt::format("{}: two of its sides differ by {:.0f} % only; it may be turned by 90° about the third", name, 100.0 * *share));
+    if (const auto turn = nearly_alike_turn(problem.solids[o].hull.vertices); turn && shot.bodies[o].shape == Shape::mesh)
+      remarks.push_back(fmt::format("{}: it looks nearly the same turned by {:.0f}°; it may be turned so", name, degrees(*turn)));
   }
   if (problem.level) remarks.push_back(fmt::format("{}: taken to be level; give its \"normal\" if it is not", shot.bodies[1].name));
   if (problem.plumb) remarks.push_back(fmt::format("{}: taken to be about plumb; give \"down\" if it is not", shot.bodies[1].name));

@@ -36,11 +36,12 @@ void check(const StagePlan& plan, const StagedCollision& c) {
 /// c of the first impact; the shot's pooled value stands for what is to be confident.
 double restitution_of(const Reconstruction& r) { return std::clamp(r.impacts.front().restitution.value, 0.0, 1.0); }
 
-double first_mass(const StagedCollision& c) {
+/// kg
+std::optional<double> first_mass(const StagedCollision& c) {
   if (c.mass) return *c.mass;
   if (c.shot.bodies[0].mass) return *c.shot.bodies[0].mass;
   if (c.shot.bodies[1].mass && c.result.mass_ratio) return *c.shot.bodies[1].mass / c.result.mass_ratio->value;
-  return 1.0;
+  return std::nullopt;
 }
 
 /// The state before the impact of unit mass, about principal axes. A body with another shape keeps its spin.
@@ -69,7 +70,9 @@ CastActor actor_from(const StagedCollision& c, int collision, std::size_t i) {
   made.actor.body.name = made.actor.name;
   made.solid = solid_of(made.actor.body, c.shot.name);
   made.actor.inertia = made.solid.mass.inertia;
-  made.actor.mass = first_mass(c) * (i == 1 && c.result.mass_ratio ? c.result.mass_ratio->value : 1.0);
+  const std::optional<double> mass = first_mass(c);
+  made.mass_known = mass.has_value();
+  made.actor.mass = mass.value_or(1.0) * (i == 1 && c.result.mass_ratio ? c.result.mass_ratio->value : 1.0);
   made.actor.restitution = std::sqrt(restitution_of(c.result));
   made.actor.friction = std::sqrt(c.result.impacts.front().friction.value_or(0.0));
   made.impact = filmed_state(c, i, made.solid);

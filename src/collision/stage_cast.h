@@ -21,6 +21,7 @@ struct StageState {
 struct CastActor {
   Actor actor;
   int collision = 0, body = 0;
+  bool mass_known = false;  ///< else its collision's first body is taken to have 1 kg
   Solid solid;
   StageState impact;  ///< just before its collision's first impact
 };

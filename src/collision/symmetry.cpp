@@ -8,6 +8,8 @@
 namespace unseen::collision {
 namespace {
 
+constexpr double kSameShare = 0.01, kToldShare = 0.04;  // shares of the reach or of the longer side: alike up to the first, told apart from the second on
+
 /// An orthonormal frame: along `a`, then `b` across it.
 Mat3 frame_of(const Vec3& a, const Vec3& b) {
   Mat3 frame;
@@ -66,12 +68,19 @@ std::vector<Quat> near_turns(const std::vector<Vec3>& corners, const Symmetry& s
 }
 
 std::optional<double> nearly_alike_sides(const Body& body) {
-  constexpr double kSame = 0.01, kTold = 0.04;
   std::optional<double> least;
   for (int i = 0; body.shape == Shape::box && i < 3; ++i) {
     const double a = body.box[i], b = body.box[(i + 1) % 3], share = std::abs(a - b) / std::max(a, b);
-    if (share > kSame && share < kTold && (!least || share < *least)) least = share;
+    if (share > kSameShare && share < kToldShare && (!least || share < *least)) least = share;
   }
+  return least;
+}
+
+std::optional<double> nearly_alike_turn(const std::vector<Vec3>& corners) {
+  const std::vector<Quat> alike = symmetry_of(corners, kSameShare).turns;
+  std::optional<double> least;
+  for (const Quat& g : symmetry_of(corners, kToldShare).turns)
+    if (const double angle = Quat::Identity().angularDistance(g); angle_between(g, Quat::Identity(), alike) > 0.3 && (!least || angle < *least)) least = angle;
   return least;
 }
 

@@ -24,6 +24,9 @@ std::vector<Quat> near_turns(const std::vector<Vec3>& corners, const Symmetry& s
 /// sides that are the same, and where all differ clearly.
 std::optional<double> nearly_alike_sides(const Body& body);
 
+/// The least rotation, rad, after which a body of these corners looks so nearly as before that outlines hardly tell; nothing where all do.
+std::optional<double> nearly_alike_turn(const std::vector<Vec3>& corners);
+
 /// The member g of `turns` for which q·g is nearest to `to`, as q·g.
 Quat nearest_alike(const Quat& q, const Quat& to, const std::vector<Quat>& turns);
 

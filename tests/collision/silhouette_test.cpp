@@ -109,6 +109,21 @@ TEST(Symmetry, SidesThatOutlinesHardlyTellApart) {
   EXPECT_FALSE(nearly_alike_sides(Body()));
 }
 
+TEST(Symmetry, TurnsThatOutlinesHardlyTell) {
+  const auto prism = [](double stretch) {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 6; ++i) {
+      const double angle = i * 2.0 * kPi / 3.0;
+      corners.emplace_back(0.1 * stretch * std::cos(angle), 0.1 * std::sin(angle), i < 3 ? -0.08 : 0.08);
+    }
+    return corners;
+  };
+  ASSERT_TRUE(nearly_alike_turn(prism(1.03)));
+  EXPECT_NEAR(degrees(*nearly_alike_turn(prism(1.03))), 120.0, 1.5);
+  EXPECT_FALSE(nearly_alike_turn(prism(1.0)));  // alike
+  EXPECT_FALSE(nearly_alike_turn(prism(1.2)));  // told
+}
+
 TEST(Symmetry, OfALopsidedBodyIsNone) {
   std::vector<Vec3> corners = columns(box_corners({0.3, 0.2, 0.1}));
   corners[0] *= 1.4;

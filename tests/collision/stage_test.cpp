@@ -110,6 +110,7 @@ StagePlan three_pairs() {
   plan.collisions[1].translate = {3, 0, 0};
   plan.collisions[2].translate = {6, 0, 0};
   plan.meetings = {{{StagedBody{0, 1}, StagedBody{1, 0}}, 0.8, std::nullopt}};
+  for (StagedCollision& c : plan.collisions) c.mass = 1.0;
   plan.fps = 240;
   return plan;
 }
@@ -139,6 +140,15 @@ TEST(Stage, ThreePairsCollideWhenAskedAndTwoOfThemAgain) {
   ASSERT_NE(again, nullptr);
   EXPECT_NEAR(again->time, 0.8, 1e-3);
   EXPECT_NEAR(again->restitution, std::sqrt(0.6 * 0.8), 0.01);
+}
+
+TEST(Stage, SaysWhereAMassIsAssumedThatMatters) {
+  StagePlan plan = three_pairs();
+  plan.collisions[1].mass = plan.collisions[2].mass = std::nullopt;  // the third meets nobody
+  Context context;
+  const std::vector<std::string> warnings = stage(plan, context).summary.warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].rfind("two: no mass is given", 0), 0U) << warnings[0];
 }
 
 TEST(Stage, ConservesMomentum) {
