@@ -116,7 +116,7 @@ void check_file(const Shot& shot, const io::Clip& clip, const Survey& survey, Co
   if (to_the_end && clip.announced() > decoded)
     context.warn(fmt::format("{}: {} of {} announced frames could be decoded; the file may be cut short", shot.video, decoded, clip.announced()));
   if (clip.turn() % 360 != 0)
-    context.warn(fmt::format("{}: the file asks to be turned by {}°, and is; if the picture stands on its head, set \"down\"", shot.video, clip.turn()));
+    context.warn(fmt::format("{}: the file asks to be turned by {}° clockwise, and is; if the picture stands on its head, set \"down\"", shot.video, clip.turn()));
 }
 
 /// A transform of decoded pixels as one of the pixels that are worked on: x = scale · u + o.

@@ -21,7 +21,7 @@ class Clip {
   const std::string& path() const { return path_; }
   double fps() const { return fps_; }    ///< what the file says; 0 = nothing that can be used
   int announced() const { return announced_; }  ///< frames, by the file's header; 0 = it does not say
-  int turn() const { return turn_; }     ///< degrees, by the file's rotation flag
+  int turn() const { return turn_; }     ///< degrees clockwise, by the file's rotation flag
 
  private:
   std::string path_;
