@@ -88,15 +88,16 @@ bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_
 
 }  // namespace
 
-std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& seen, const Options&, Context& context) {
+std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& seen, const Options& options, Context& context) {
   std::vector<int> group = candidates(seen);
   std::vector<std::string> labels;
   const bool drawn = !frame.strokes.empty() && !frame.is_fused(), masked = !frame.masks.empty() && !frame.is_fused();
   if (drawn) {
-    const std::vector<int> object = cut_by_strokes(frame, seen);
     labels = stroke_labels(frame);
+    const std::vector<int> label = options.strokes == "surface" ? spread_strokes(frame, seen, join_surfaces(seen, group, no_stacks(seen).piece_of_point))
+                                                                : cut_by_strokes(frame, seen);
     for (std::size_t i = 0; i < group.size(); ++i)
-      group[i] = group[i] < 0 ? -1 : object[seen.pixel_of_point[i]] + 1;  // 0 = the rest
+      group[i] = group[i] < 0 ? -1 : label[i] + 1;  // 0 = the rest
   } else if (masked) {
     for (std::size_t i = 0; i < group.size(); ++i) {
       const int mask = frame.masks[seen.pixel_of_point[i]];

@@ -16,6 +16,7 @@ OptionTable describe(Options& o) {
   t.add({"fill", &o.fill, "1", "share of a box that must be surface or hidden", 0.1, 1.0, {}});
   t.add({"stable_residual", &o.stable_residual, "1", "an arrangement with a smaller residual stands; --check decides exactly", 1e-9, 1.0, {}});
   t.add({"push", &o.push, "g", "horizontal acceleration that the scene must bear from any side, so that it stands clearly; 0 asks for balance alone", 0.0, 1.0, {}});
+  t.add({"strokes", &o.strokes, "", "how strokes part what touches: along the surface from the nearest one, or by grab-cut of the picture", 0, 1, {"surface", "grab-cut"}});
   t.add({"image_edges", &o.image_edges, "", "pull visible box edges to edges of the colour image", 0, 1, {}});
   t.add({"arrangements", &o.arrangements, "", "how many arrangements the search looks at for each part of the scene; the best found by then is kept", 1, 1e9, {}});
   t.add({"time_limit", &o.time_limit, "s", "for the search; the best arrangement found by then is kept", 0.01, 3600.0, {}});

@@ -33,7 +33,7 @@ std::vector<double> simulate(const RefereeScene&, const Vec3&, double, Context&)
 
 namespace {
 
-constexpr double kStep = 1e-3, kGravity = 9.81;
+constexpr double kGravity = 9.81;
 constexpr int kStepsBetweenLooks = 10;
 constexpr double kFlungApart = 1.0;  // share of its longest side that each box counts as moved if the simulation blows up
 
@@ -93,9 +93,8 @@ std::string model_text(const RefereeScene& scene, const std::vector<int>& body, 
   const std::size_t points = 24 * (scene.boxes.size() + 1);  // MuJoCo's memory grows with the square of this
   fmt::format_to(out,
                  "<mujoco><size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>"
-                 "<option timestep=\"{}\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" noslip_iterations=\"5\" "
-                 "gravity=\"{}\"/><default><geom friction=\"{} 0.005 0.0001\" solref=\"0.004 1\"/></default><worldbody>",
-                 points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kStep, vector_text(kGravity * down), scene.friction);
+                 "<option {} gravity=\"{}\"/><default><geom friction=\"{} {}/></default><worldbody>",
+                 points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kMujocoOptions, vector_text(kGravity * down), scene.friction, kMujocoContact);
   for (std::size_t i = 0; i < scene.supports.size(); ++i) text += support_text(scene, i);
   const auto add_boxes = [&](int of, const Vec3& origin) {
     for (std::size_t i = 0; i < scene.boxes.size(); ++i)

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <opencv2/imgproc.hpp>
+#include <queue>
 
 #include "unseen/core/error.h"
 
@@ -13,6 +16,8 @@ namespace {
 
 constexpr int kHalf = 2;             // the cut works on pictures of half the size
 constexpr int kRounds = 3;
+constexpr double kCrease = 60.0;      // pixels a radian, of a step over a concave crease
+constexpr double kColorChange = 0.3;  // pixels a level of 255
 constexpr double kDepthStep = 0.6;   // m of depth that count as much as black and white
 
 /// Two channels of colour (light and one opponent pair) and one of depth, so that the cut sees both.
@@ -33,12 +38,29 @@ cv::Mat features(const RgbdFrame& frame, const Observation& seen) {
   return picture;
 }
 
-void draw(cv::Mat& seeds, const Stroke& stroke, int value) {
+/// Onto a picture of a `part`th of the size.
+void draw(cv::Mat& seeds, const Stroke& stroke, int value, int part) {
   for (std::size_t k = 0; k < stroke.points.size(); ++k) {
-    const Vec2 a = stroke.points[k] / kHalf, b = stroke.points[std::min(k + 1, stroke.points.size() - 1)] / kHalf;
+    const Vec2 a = stroke.points[k] / part, b = stroke.points[std::min(k + 1, stroke.points.size() - 1)] / part;
     cv::line(seeds, {static_cast<int>(a.x()), static_cast<int>(a.y())}, {static_cast<int>(b.x()), static_cast<int>(b.y())},
              cv::Scalar(value), 2);
   }
+}
+
+void check_inside(const RgbdFrame& frame, const cv::Mat& seeds, int value, const std::string& label) {
+  if (cv::countNonZero(seeds == value) == 0) throw InputError(frame.name, "strokes", label + " outside the picture", "points within it, in pixels");
+}
+
+/// How long a step between two neighbours is, in pixels. Things meet in concave creases, and often have another colour.
+double step_length(const RgbdFrame& frame, const Observation& seen, int i, int j) {
+  double length = 1.0;
+  const Vec3 &n = seen.graph.normals[i], &m = seen.graph.normals[j];
+  if ((m - n).dot(seen.points[j] - seen.points[i]) < 0.0) length += kCrease * std::atan2(n.cross(m).norm(), n.dot(m));
+  if (frame.color.empty()) return length;
+  const auto &a = frame.color[seen.pixel_of_point[i]], &b = frame.color[seen.pixel_of_point[j]];
+  int most = 0;
+  for (std::size_t k = 0; k < 3; ++k) most = std::max(most, std::abs(int(a[k]) - int(b[k])));
+  return length + kColorChange * most;
 }
 
 }  // namespace
@@ -62,11 +84,10 @@ std::vector<int> cut_by_strokes(const RgbdFrame& frame, const Observation& seen)
         if (p < 0 || seen.support_of_point[p] >= 0) cut.at<std::uint8_t>(y, x) = cv::GC_BGD;
       }
     for (const Stroke& stroke : frame.strokes)
-      if (stroke.label != labels[l]) draw(cut, stroke, cv::GC_BGD);
+      if (stroke.label != labels[l]) draw(cut, stroke, cv::GC_BGD, kHalf);
     for (const Stroke& stroke : frame.strokes)
-      if (stroke.label == labels[l]) draw(cut, stroke, cv::GC_FGD);
-    if (cv::countNonZero(cut == cv::GC_FGD) == 0)
-      throw InputError(frame.name, "strokes", labels[l] + " outside the picture", "points within it, in pixels");
+      if (stroke.label == labels[l]) draw(cut, stroke, cv::GC_FGD, kHalf);
+    check_inside(frame, cut, cv::GC_FGD, labels[l]);
     if (cv::countNonZero(cut == cv::GC_PR_FGD) > 0 && cv::countNonZero(cut == cv::GC_BGD) > 0) {
       cv::setRNGSeed(1);
       cv::Mat background, foreground;
@@ -79,7 +100,39 @@ std::vector<int> cut_by_strokes(const RgbdFrame& frame, const Observation& seen)
       if (c == cv::GC_FGD || c == cv::GC_PR_FGD) object[i] = static_cast<int>(l);
     }
   }
-  return object;
+  std::vector<int> of_point;
+  for (const int pixel : seen.pixel_of_point) of_point.push_back(object[pixel]);
+  return of_point;
+}
+
+std::vector<int> spread_strokes(const RgbdFrame& frame, const Observation& seen, const std::vector<int>& part_of_point) {
+  const std::vector<std::string> labels = stroke_labels(frame);
+  cv::Mat seeds(frame.camera.height, frame.camera.width, CV_16SC1, cv::Scalar(-1));
+  for (const Stroke& stroke : frame.strokes)
+    draw(seeds, stroke, static_cast<int>(std::find(labels.begin(), labels.end(), stroke.label) - labels.begin()), 1);
+  for (std::size_t l = 0; l < labels.size(); ++l) check_inside(frame, seeds, static_cast<int>(l), labels[l]);
+  std::vector<int> label(seen.points.size(), -1);
+  std::vector<double> way(seen.points.size(), std::numeric_limits<double>::infinity());
+  std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (part_of_point[i] < 0) continue;
+    label[i] = seeds.ptr<short>()[seen.pixel_of_point[i]];
+    if (label[i] >= 0) open.emplace(way[i] = 0.0, static_cast<int>(i));
+  }
+  while (!open.empty()) {
+    const auto [length, i] = open.top();
+    open.pop();
+    if (length > way[i]) continue;
+    for (const int j : seen.graph.neighbours(i)) {
+      if (part_of_point[j] != part_of_point[i]) continue;
+      const double longer = length + step_length(frame, seen, i, j);
+      if (longer >= way[j]) continue;
+      way[j] = longer;
+      label[j] = label[i];
+      open.emplace(longer, j);
+    }
+  }
+  return label;
 }
 
 }  // namespace unseen::cuboids

@@ -77,13 +77,12 @@ std::string cuboids_mjcf(const Completion& c, double friction) {
   std::string text = fmt::format(
       "<mujoco model=\"unseen\">\n"
       "  <compiler angle=\"radian\"/>\n"
-      "  <option timestep=\"0.001\" gravity=\"0 0 -9.81\" cone=\"elliptic\" impratio=\"20\" solver=\"Newton\" "
-      "noslip_iterations=\"5\"/>\n"
+      "  <option gravity=\"0 0 -9.81\" {}/>\n"
       "  <size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>\n"
-      "  <default>\n    <geom friction=\"{:.9g} 0.005 0.0001\" solref=\"0.008 1\"/>\n  </default>\n"
+      "  <default>\n    <geom friction=\"{:.9g} {}/>\n  </default>\n"
       "  <visual>\n    <global offwidth=\"1280\" offheight=\"960\"/>\n  </visual>\n"
       "  <worldbody>\n    <light directional=\"true\" pos=\"0 0 3\" dir=\"0.2 0.3 -1\"/>\n",
-      contacts, 3 * contacts, numbers, friction);
+      cuboids::kMujocoOptions, contacts, 3 * contacts, numbers, friction, cuboids::kMujocoContact);
   std::vector<OrientedBox> all;
   for (const cuboids::Cuboid& cuboid : c.cuboids) all.push_back(cuboid.box);
   for (std::size_t i = 0; i < c.supports.size(); ++i) text += support_geom(c, i, all);

@@ -305,12 +305,37 @@ TEST(Objects, StrokesPartWhatTouches) {
     for (const double s : {0.04, 0.0, -0.04}) stroke.points.push_back(frame.camera.project(T * Vec3(x + s, 0.75, 0.1)));
     frame.strokes.push_back(stroke);
   }
-  const Perceived p = perceive(frame);
-  ASSERT_EQ(p.fitted.size(), 2u);
-  for (std::size_t b = 0; b < 2; ++b) {
-    const Cuboid& cuboid = nearest(p.fitted, scene.boxes[b].center);
-    EXPECT_EQ(cuboid.label, b == 0 ? "left" : "right");
-    EXPECT_LT(size_error(cuboid.box, scene.boxes[b]), 0.012);
+  for (const char* how : {"surface", "grab-cut"}) {
+    const Perceived p = perceive(frame, {.strokes = how});
+    ASSERT_EQ(p.fitted.size(), 2u) << how;
+    for (std::size_t b = 0; b < 2; ++b) {
+      const Cuboid& cuboid = nearest(p.fitted, scene.boxes[b].center);
+      EXPECT_EQ(cuboid.label, b == 0 ? "left" : "right") << how;
+      EXPECT_LT(size_error(cuboid.box, scene.boxes[b]), 0.012) << how;
+    }
+  }
+}
+
+TEST(Objects, AShortLineEachIsEnough) {
+  Scene scene;  // two flush boxes of one height with another upon them; the fourth has no stroke
+  scene.boxes = {upright(-0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0), upright(0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0), upright(0.0, 0.75, 0.1, {0.1, 0.1, 0.06}, 0),
+                 upright(0.3, 0.75, 0, {0.08, 0.08, 0.12}, 30)};
+  RgbdFrame frame = render(scene);
+  const RigidTransform T = camera_of(scene).inverse();
+  const std::vector<std::string> labels = {"left", "right", "upper"};
+  for (std::size_t b = 0; b < 3; ++b) {
+    const Vec3 front = scene.boxes[b].center - Vec3(0, scene.boxes[b].half_size.y(), 0);
+    frame.strokes.push_back({labels[b], {frame.camera.project(T * (front - Vec3(0.02, 0, 0))), frame.camera.project(T * (front + Vec3(0.02, 0, 0)))}});
+  }
+  for (int order = 0; order < 2; ++order) {
+    const Perceived p = perceive(frame);
+    ASSERT_EQ(p.fitted.size(), 4u);
+    for (std::size_t b = 0; b < 4; ++b) {
+      const Cuboid& cuboid = nearest(p.fitted, scene.boxes[b].center);
+      EXPECT_EQ(cuboid.label, b < 3 ? labels[b] : "");
+      EXPECT_LT(size_error(cuboid.box, scene.boxes[b]), 0.015) << b;
+    }
+    std::reverse(frame.strokes.begin(), frame.strokes.end());
   }
 }
 

@@ -9,6 +9,11 @@
 
 namespace unseen::cuboids {
 
+/// MuJoCo's options, and what a geom has beside its friction for sliding. The last number but one is the time constant of a contact, s: of 360 generated
+/// frames 2 do not stand with 4 ms, 5 to 7 with 2, 3, 6 and 8 ms (chairs and walls whose faces coincide).
+inline constexpr const char* kMujocoOptions = R"(timestep="0.001" cone="elliptic" impratio="20" solver="Newton" noslip_iterations="5")";
+inline constexpr const char* kMujocoContact = R"(0.005 0.0001" solref="0.004 1")";
+
 /// m: half size of a box as MuJoCo is given it, 0.1 mm smaller: faces that coincide exactly give MuJoCo 2.2 contacts of depth −0.6 m.
 Vec3 half_size_for_mujoco(const OrientedBox& box);
 

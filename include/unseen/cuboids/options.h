@@ -19,6 +19,7 @@ struct Options {
   double fill = 0.7;               ///< share of filled voxels in a slab
   double stable_residual = 0.02;   ///< an arrangement with a smaller residual stands
   double push = 0.1;               ///< g: what stands must bear this horizontal acceleration too; 0 = balance alone
+  std::string strokes = "surface"; ///< how strokes part what touches: along the "surface", or by "grab-cut" of the picture
   bool image_edges = true;         ///< pull visible box edges to edges of the colour image
   int arrangements = 3000;         ///< looked at by the search for each part of the scene (fewer for parts of more than 8 boxes)
   double time_limit = 10.0;        ///< s, for the search; what is best then is kept
