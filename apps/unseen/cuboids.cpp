@@ -95,6 +95,7 @@ int run(CuboidsArguments& args) {
     if (!args.input.empty() || !args.out.empty()) throw UsageError("--check takes neither FRAME nor -o OUT");
     args.check.supports = args.supports;
     args.check.friction = args.options.method.friction;
+    args.check.density = args.options.method.density;
     return run_check(args.check, args.common);
   }
   if (!args.check.up.empty()) throw UsageError("--up belongs to --check; a frame file has its own \"up\"");

@@ -26,13 +26,13 @@ Vec3 read_up(const std::string& text) {
   return up.normalized();
 }
 
-std::vector<cuboids::Block> blocks_of(const io::Assembly& assembly) {
+std::vector<cuboids::Block> blocks_of(const io::Assembly& assembly, double density) {
   std::vector<cuboids::Block> blocks;
   for (const io::NamedMesh& named : assembly.blocks) {
     cuboids::Block block;
     block.name = named.name;
     block.mesh = named.mesh;
-    if (named.density) block.density = *named.density;
+    block.density = named.density.value_or(density);
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -59,7 +59,7 @@ int run_check(const CheckArguments& args, const CommonFlags& common) {
   options.up = read_up(args.up);
   options.friction = args.friction;
   if (options.supports.empty()) throw UsageError("--support ID is missing: the file names no block that does not move");
-  const std::vector<cuboids::Block> blocks = blocks_of(assembly);
+  const std::vector<cuboids::Block> blocks = blocks_of(assembly, args.density);
   const cuboids::Check check = cuboids::check_assembly(blocks, options, session.context);
   session.progress.clear();
   if (common.json) {

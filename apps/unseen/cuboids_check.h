@@ -15,6 +15,7 @@ struct CheckArguments {
   std::vector<std::string> supports;  ///< names of blocks; empty = those that the file names
   std::string up;                     ///< "x,y,z"; empty = z
   double friction = 0.7;
+  double density = 300.0;             ///< kg/m³, of blocks of which the file names none
 };
 
 /// Says whether an assembly stands. Exit code 0 if it does, 4 if not.

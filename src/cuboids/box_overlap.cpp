@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "cuboids/clip.h"
+#include "core/clip_convex.h"
 #include "unseen/cuboids/evaluate.h"
 
 namespace unseen::cuboids {
@@ -33,7 +33,11 @@ double cone_volume(const std::vector<BoxFace>& a, const std::vector<BoxFace>& b,
     if (skip_shared && std::any_of(b.begin(), b.end(), [&](const BoxFace& f) { return is_same(f, face); })) continue;
     const Vec3 u = face.half_u * face.u, v = face.half_v * face.v;
     std::vector<Vec3> polygon = {face.center - u - v, face.center + u - v, face.center + u + v, face.center - u + v};
-    for (const BoxFace& side : b) polygon = clip(polygon, {side.normal, side.normal.dot(side.center) + kSame});
+    for (const BoxFace& side : b)
+      polygon = clip_convex(polygon, [&](const Vec3& p) {
+        const double height = side.normal.dot(p - side.center);
+        return std::abs(height) <= kSame ? 0.0 : height;
+      });
     Vec3 twice = Vec3::Zero();
     for (std::size_t i = 2; i < polygon.size(); ++i)
       twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);

@@ -3,12 +3,17 @@
 #include "unseen/cuboids/engine_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace unseen::cuboids {
 
 Vec3 half_size_for_mujoco(const OrientedBox& box) {
-  constexpr double kApart = 1e-4;  // m
-  return (box.half_size.array() - kApart).max(0.5 * box.half_size.array());
+  constexpr double kHair = 1e-4;    // m
+  constexpr double kUpright = 0.9;  // cosine
+  Vec3 half = (box.half_size.array() - kHair).max(0.5 * box.half_size.array());
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(box.axes(2, k)) > kUpright) half[k] = box.half_size[k] + kHair;
+  return half;
 }
 
 OrientedBox slab_behind(const Plane& plane, const std::vector<Vec3>& polygon) {

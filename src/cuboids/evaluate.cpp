@@ -72,9 +72,10 @@ RefereeScore ask_referee(const Completion& result, const EvaluateOptions& option
   for (const auto* ids : {&result.unsupported, &result.held_outside})
     for (const int id : *ids) scene.fixed.emplace_back(-1, index.at(id));
   const std::vector<double> moved = simulate(scene, -Vec3::UnitZ(), options.seconds, context);
+  const std::vector<int> body = bodies_of(scene);
   RefereeScore score;
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    if (result.hangs(result.cuboids[i].id)) continue;
+    if (body[i] < 0) continue;
     ++score.bodies;
     if (moved[i] < kStill) ++score.still;
     else score.moved.push_back(result.cuboids[i].id);

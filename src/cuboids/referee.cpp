@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/referee.h"
 
+#include <algorithm>
+#include <numeric>
 #include <stdexcept>
 
 #ifdef UNSEEN_HAS_MUJOCO
@@ -9,11 +11,9 @@
 #include <mujoco/mujoco.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <string>
 
 #include "cuboids/synth_builder.h"
@@ -21,6 +21,17 @@
 #endif
 
 namespace unseen::cuboids {
+
+std::vector<int> bodies_of(const RefereeScene& scene) {
+  std::vector<int> body(scene.boxes.size());
+  std::iota(body.begin(), body.end(), 0);
+  for (const auto& [a, b] : scene.fixed) {
+    const int first = a < 0 ? -1 : body[a], second = b < 0 ? -1 : body[b];
+    for (int& of : body)
+      if (of == first || of == second) of = std::min(first, second);
+  }
+  return body;
+}
 
 #ifndef UNSEEN_HAS_MUJOCO
 
@@ -36,18 +47,6 @@ namespace {
 constexpr double kGravity = 9.81;
 constexpr int kStepsBetweenLooks = 10;
 constexpr double kFlungApart = 1.0;  // share of its longest side that each box counts as moved if the simulation blows up
-
-/// The rigid body that each box belongs to: the lowest index of those fixed together; −1 = a support.
-std::vector<int> bodies_of(const RefereeScene& scene) {
-  std::vector<int> body(scene.boxes.size());
-  std::iota(body.begin(), body.end(), 0);
-  for (const auto& [a, b] : scene.fixed) {
-    const int first = a < 0 ? -1 : body[a], second = b < 0 ? -1 : body[b];
-    for (int& of : body)
-      if (of == first || of == second) of = std::min(first, second);
-  }
-  return body;
-}
 
 std::string quaternion_text(const Mat3& rotation) {
   const Eigen::Quaterniond q(rotation);

@@ -19,6 +19,9 @@ struct RefereeScene {
   double friction = 0.7;
 };
 
+/// The rigid body that each box belongs to: the lowest index of those fixed together; −1 = fixed to a support, and cannot move.
+std::vector<int> bodies_of(const RefereeScene& scene);
+
 /// True if this build has the engine.
 bool has_referee();
 

@@ -15,7 +15,7 @@ namespace unseen::cuboids {
 struct Block {
   std::string name;
   TriangleMesh mesh;
-  double density = 2400.0;  ///< kg/m³
+  double density = 300.0;  ///< kg/m³
 };
 
 struct CheckOptions {
