@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
 #include <numeric>
 
 #include "cuboids/join_surfaces.h"
@@ -23,6 +25,7 @@ constexpr double kSmallestObject = 0.003;        // of the points of all objects
 constexpr std::size_t kFewPoints = 500;         // so few may be a strip along an edge
 constexpr double kStrip = 8.0;                 // widths, in spacing
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
+constexpr std::size_t kMostNamed = 10;         // masks, in a warning
 constexpr double kOutside = 0.02;             // m beyond the outline of the ground, where something else carries
 
 /// Points of equal non-negative group that links connect.
@@ -86,6 +89,23 @@ bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_
   return false;
 }
 
+/// Says which masks came to nothing. Those that lie on a support for the most part are of that.
+void warn_of_lost_masks(const RgbdFrame& frame, const Observation& seen, const std::vector<ObjectPart>& parts, Context& context) {
+  std::map<int, int> balance;  // of each mask: points on no support, less those on one
+  for (const int mask : frame.masks)
+    if (mask > 0) balance.emplace(mask, 0);
+  for (std::size_t i = 0; i < seen.points.size(); ++i)
+    if (const int mask = frame.masks[seen.pixel_of_point[i]]; mask > 0) balance[mask] += seen.support_of_point[i] < 0 ? 1 : -1;
+  for (const ObjectPart& part : parts) balance.erase(std::stoi(part.label));
+  std::erase_if(balance, [](const auto& mask) { return mask.second < 0; });
+  if (balance.empty()) return;
+  std::vector<int> named;
+  for (const auto& [mask, count] : balance)
+    if (named.size() < kMostNamed) named.push_back(mask);
+  context.warn(fmt::format("{} of the masks became no object, too little of them was measured: {}{}", balance.size(), fmt::join(named, ", "),
+                           balance.size() > named.size() ? ", …" : ""));
+}
+
 }  // namespace
 
 std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& seen, const Options& options, Context& context) {
@@ -142,6 +162,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
     part.points = std::move(points);
     parts.push_back(std::move(part));
   }
+  if (masked) warn_of_lost_masks(frame, seen, parts, context);
   if (debris > 0) context.message(fmt::format("{} pieces too small to be objects were left out", debris));
   return parts;
 }

@@ -291,6 +291,24 @@ TEST(Boxes, ADensityOfNothingInThePictureIsRemarkedOn) {
   EXPECT_NE(warnings[0].find("\"chair\""), std::string::npos);
 }
 
+TEST(Objects, AMaskThatBecomesNoneIsSaid) {
+  Scene scene;
+  scene.boxes = {upright(0, 0.8, 0, {0.1, 0.1, 0.1}, 0)};
+  RgbdFrame frame = render(scene);
+  frame.masks.assign(frame.depth.size(), 0);
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  int rest = 40;
+  for (std::size_t i = 0; i < seen.points.size(); ++i)
+    frame.masks[seen.pixel_of_point[i]] = seen.support_of_point[i] >= 0 ? 7 : rest-- > 0 ? 5 : 3;  // the ground, a few points of the box, and the box
+  const std::vector<ObjectPart> parts = find_objects(frame, seen, {}, context);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].label, "3");
+  const std::vector<std::string> warnings = context.take_warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "1 of the masks became no object, too little of them was measured: 5");
+}
+
 TEST(Objects, StrokesPartWhatTouches) {
   Scene scene;  // two boxes side by side, flush in front and above: only colour tells them apart
   scene.boxes = {upright(-0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0), upright(0.06, 0.75, 0, {0.12, 0.1, 0.1}, 0)};
