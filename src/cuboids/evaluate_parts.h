@@ -34,7 +34,7 @@ std::vector<OrientedBox> fused(const std::vector<OrientedBox>& boxes);
 /// The result's boxes, each grown to span what is fixed to it of the same true box.
 std::vector<OrientedBox> joined(const Completion& result, const Matching& matching);
 
-/// Sizes of `box` in the order of the true box's dimensions: by nearest axes, or both in falling order without a pose.
+/// Sizes of `box` in the order of the true box's dimensions: by nearest axes, or so that most of them is right without a pose.
 Vec3 sizes_like(const OrientedBox& box, const TrueCuboid& truth);
 
 void score_sizes(const Completion& result, const Truth& truth, const Matching& matching, Evaluation& evaluation);

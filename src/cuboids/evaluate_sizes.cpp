@@ -118,12 +118,13 @@ std::vector<OrientedBox> joined(const Completion& result, const Matching& matchi
 }
 
 Vec3 sizes_like(const OrientedBox& box, const TrueCuboid& truth) {
-  Vec3 size = 2.0 * box.half_size;
-  if (!truth.box) {
-    std::sort(size.data(), size.data() + 3, std::greater<>());
-    return size;
-  }
-  const Mat3 likeness = (truth.box->axes.transpose() * box.axes).cwiseAbs();
+  const Vec3 size = 2.0 * box.half_size;
+  Mat3 likeness;
+  if (truth.box)
+    likeness = (truth.box->axes.transpose() * box.axes).cwiseAbs();
+  else
+    for (int real = 0; real < 3; ++real)
+      for (int k = 0; k < 3; ++k) likeness(real, k) = right_share(size[k], truth.size[real]);
   std::array<int, 3> order = {0, 1, 2}, best = order;
   double most = -1;
   do {
