@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -101,6 +102,38 @@ std::vector<char> every_nth(const std::vector<PointObservation>& points, int n) 
   return held_out;
 }
 
+/// Variance of each held-out sighting, in that of the noise: its own, and that of a parabola through what is left of its flight, at its time.
+std::vector<double> predicted_variances(const std::vector<PointObservation>& points, const std::vector<char>& held_out) {
+  std::map<std::pair<int, bool>, std::vector<double>> left;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!held_out[i]) left[{points[i].body, points[i].after}].push_back(points[i].time);
+  std::vector<double> variances(points.size(), 1.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!held_out[i]) continue;
+    const std::vector<double>& times = left[{points[i].body, points[i].after}];
+    const auto [first, last] = std::minmax_element(times.begin(), times.end());
+    const auto powers = [&, start = *first, length = std::max(*last - *first, 1e-9)](double time) {
+      const double t = (time - start) / length;
+      return Vec3(1.0, t, t * t);
+    };
+    Mat3 information = Mat3::Zero();
+    for (const double time : times) information += powers(time) * powers(time).transpose();
+    const Vec3 x = powers(points[i].time);
+    variances[i] += x.dot(information.ldlt().solve(x));
+  }
+  return variances;
+}
+
+/// Reduced χ² of what was held out, without outliers.
+double held_out_chi2(const Problem& problem, const std::vector<Vec2>& off, const ModelCheck& check, double noise) {
+  const std::vector<double> variances = predicted_variances(problem.points, check.held_out);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (check.held_out[i] && !check.outlier[i]) sum += off[i].squaredNorm() / (2.0 * noise * noise * variances[i]), ++count;
+  return count ? sum / static_cast<double>(count) : 0.0;
+}
+
 }  // namespace
 
 ModelCheck check_model(const Solution& solution, int every, double noise) {
@@ -126,7 +159,7 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
   if (!problem.filmed && !off.empty()) check.outlier = outliers(off, noise);
   check.used_rms = rms(residuals(problem, solution.fit.state), check, false);
   check.held_out_rms = rms(off, check, true);
-  check.held_out_chi2 = check.held_out_rms * check.held_out_rms / (2.0 * noise * noise);
+  check.held_out_chi2 = held_out_chi2(problem, off, check, noise);
   if (check.held_out_chi2 > kMostChi2)
     check.reasons.push_back(fmt::format("frames that were held out are {:.1f} px off, where the tracks' own noise is {:.1f} px", check.held_out_rms, noise));
   for (std::string& trend : trends(problem, off, check.outlier, noise)) check.reasons.push_back(std::move(trend));

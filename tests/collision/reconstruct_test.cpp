@@ -227,6 +227,23 @@ TEST(Reconstruct, FiveSightingsAfterTheBounceOfManyAreRead) {  // so many that e
   EXPECT_LE(reconstruct(shot, {}, context).impacts.size(), 1u);
 }
 
+TEST(Reconstruct, FewSightingsOfAFlightAreNoMisfit) {
+  int fit = 0;
+  for (int seed = 1; seed <= 8; ++seed) {
+    Shot shot = bouncing_ball(0.6, 20, 20);
+    Random random(static_cast<std::uint64_t>(seed));
+    for (Sighting& seen : shot.observations) {
+      seen.pixel += 0.3 * Vec2(random.normal(), random.normal());
+      seen.radius = 0.0;
+    }
+    Context context;
+    const Reconstruction r = reconstruct(shot, {}, context);
+    if (r.restitution) EXPECT_NEAR(r.restitution->value, 0.6, 0.05) << seed;
+    fit += r.fits;
+  }
+  EXPECT_EQ(fit, 8);
+}
+
 TEST(Reconstruct, TellsTheTimesOfFramesThatComeUnevenly) {
   const Shot shot = bouncing_ball(0.7, 55);
   const ShotCamera camera = complete_camera(shot, 0, 0);
