@@ -191,7 +191,7 @@ class Check(CliTest):
 
     def test_json(self):
         self.assembly(0.5, supports=["beam"])
-        run = self.unseen("cuboids", "--check", "a.json", "--mu", "0.6", "--json")
+        run = self.unseen("cuboids", "--check", "a.json", "--mu", "0.6", "--density", "2400", "--json")
         verdict = json.loads(run.stdout)
         self.assertEqual((verdict["stable"], verdict["friction"], verdict["supports"]), (True, 0.6, ["beam"]))
         # Pushed aside the block slides at 0.6 g; across the beam (half width and half height 0.5 m) it would tip at 1 g.
