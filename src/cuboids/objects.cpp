@@ -118,6 +118,8 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
                                                                 : cut_by_strokes(frame, seen);
     for (std::size_t i = 0; i < group.size(); ++i)
       group[i] = group[i] < 0 ? -1 : label[i] + 1;  // 0 = the rest
+    for (std::size_t l = 0; l < labels.size(); ++l)
+      if (std::find(group.begin(), group.end(), static_cast<int>(l) + 1) == group.end()) context.warn(fmt::format("strokes of \"{}\" touch no object", labels[l]));
   } else if (masked) {
     for (std::size_t i = 0; i < group.size(); ++i) {
       const int mask = frame.masks[seen.pixel_of_point[i]];

@@ -108,9 +108,13 @@ std::vector<int> cut_by_strokes(const RgbdFrame& frame, const Observation& seen)
 std::vector<int> spread_strokes(const RgbdFrame& frame, const Observation& seen, const std::vector<int>& part_of_point) {
   const std::vector<std::string> labels = stroke_labels(frame);
   cv::Mat seeds(frame.camera.height, frame.camera.width, CV_16SC1, cv::Scalar(-1));
-  for (const Stroke& stroke : frame.strokes)
-    draw(seeds, stroke, static_cast<int>(std::find(labels.begin(), labels.end(), stroke.label) - labels.begin()), 1);
-  for (std::size_t l = 0; l < labels.size(); ++l) check_inside(frame, seeds, static_cast<int>(l), labels[l]);
+  for (std::size_t l = 0; l < labels.size(); ++l) {
+    cv::Mat own = cv::Mat::zeros(seeds.size(), CV_8UC1);
+    for (const Stroke& stroke : frame.strokes)
+      if (stroke.label == labels[l]) draw(own, stroke, 1, 1);
+    check_inside(frame, own, 1, labels[l]);
+    seeds.setTo(static_cast<double>(l), own);
+  }
   std::vector<int> label(seen.points.size(), -1);
   std::vector<double> way(seen.points.size(), std::numeric_limits<double>::infinity());
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;

@@ -355,6 +355,12 @@ TEST(Objects, AShortLineEachIsEnough) {
     }
     std::reverse(frame.strokes.begin(), frame.strokes.end());
   }
+  frame.strokes.push_back({"ground", {frame.camera.project(T * Vec3(-0.3, 0.75, 0)), frame.camera.project(T * Vec3(-0.25, 0.75, 0))}});
+  Context context;
+  find_objects(frame, observe(frame, {}, context), {}, context);
+  const std::vector<std::string> warnings = context.take_warnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "strokes of \"ground\" touch no object");
 }
 
 }  // namespace
