@@ -142,7 +142,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
     c_spread = std::max(c_spread, share * std::abs(other.restitution - result.restitution.value) / 1.96);
     m_spread = std::max(m_spread, share * std::abs(other.mass_ratio - result.mass_ratio.value) / 1.96);
   }
-  if (problem.level && c_spread > c_noise) c_spread = std::hypot(c_spread, c_noise);  // another floor's value is as noisy
+  if (c_spread > c_noise) c_spread = std::hypot(c_spread, c_noise);  // another solution's value is as noisy
   const FocalError focal = error_by_focal_length(solution);
   result.scale = scale_ratios(solution);
   const ScaleError scale_off = error_by_scale(solution, result.scale);
