@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kStops = 0.4;       // of a hollow ball's speed: the most that friction takes from one that does not spin
 constexpr double kUsualFriction = 0.3;  // coefficient
-constexpr double kSpinUnlikely = 0.8;   // χ²: of what is thrown two thirds spin little
+constexpr double kSpinUnlikely = 0.8;   // χ²: two fifths of what is thrown are taken to spin
 constexpr double kLever = 0.25;         // of a body's extent: how far off its centre a usual hit is
 constexpr double kLeast = 0.08;      // rad: a smaller tilt moves the restitution by a hundredth or less
 constexpr double kOtherValue = 0.01;   // of the restitution
