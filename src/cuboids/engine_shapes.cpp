@@ -2,10 +2,16 @@
 // Copyright (c) 2026 the unseen authors
 #include "unseen/cuboids/engine_shapes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace unseen::cuboids {
+
+std::string mujoco_contact(double friction) {
+  return fmt::format(R"(friction="{:.9g} 0.005 0.0001" solref="0.004 1" solimp="0.7 0.95 0.0005")", friction);
+}
 
 Vec3 half_size_for_mujoco(const OrientedBox& box) {
   constexpr double kHair = 1e-4;    // m

@@ -92,8 +92,8 @@ std::string model_text(const RefereeScene& scene, const std::vector<int>& body, 
   const std::size_t points = 24 * (scene.boxes.size() + 1);  // MuJoCo's memory grows with the square of this
   fmt::format_to(out,
                  "<mujoco><size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>"
-                 "<option {} gravity=\"{}\"/><default><geom friction=\"{} {}/></default><worldbody>",
-                 points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kMujocoOptions, vector_text(kGravity * down), scene.friction, kMujocoContact);
+                 "<option {} gravity=\"{}\"/><default><geom {}/></default><worldbody>",
+                 points, 3 * points, 2'000'000 + 700'000 * scene.boxes.size(), kMujocoOptions, vector_text(kGravity * down), mujoco_contact(scene.friction));
   for (std::size_t i = 0; i < scene.supports.size(); ++i) text += support_text(scene, i);
   const auto add_boxes = [&](int of, const Vec3& origin) {
     for (std::size_t i = 0; i < scene.boxes.size(); ++i)

@@ -79,10 +79,10 @@ std::string cuboids_mjcf(const Completion& c, double friction) {
       "  <compiler angle=\"radian\"/>\n"
       "  <option gravity=\"0 0 -9.81\" {}/>\n"
       "  <size nconmax=\"{}\" njmax=\"{}\" nstack=\"{}\"/>\n"
-      "  <default>\n    <geom friction=\"{:.9g} {}/>\n  </default>\n"
+      "  <default>\n    <geom {}/>\n  </default>\n"
       "  <visual>\n    <global offwidth=\"1280\" offheight=\"960\"/>\n  </visual>\n"
       "  <worldbody>\n    <light directional=\"true\" pos=\"0 0 3\" dir=\"0.2 0.3 -1\"/>\n",
-      cuboids::kMujocoOptions, contacts, 3 * contacts, numbers, friction, cuboids::kMujocoContact);
+      cuboids::kMujocoOptions, contacts, 3 * contacts, numbers, cuboids::mujoco_contact(friction));
   std::vector<OrientedBox> all;
   for (const cuboids::Cuboid& cuboid : c.cuboids) all.push_back(cuboid.box);
   for (std::size_t i = 0; i < c.supports.size(); ++i) text += support_geom(c, i, all);

@@ -3,17 +3,19 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "unseen/cuboids/types.h"
 
 namespace unseen::cuboids {
 
-/// MuJoCo's options, and what a geom has beside its friction for sliding: that for spinning and rolling; a contact's time constant (s) and damping; and how
-/// firm it is, less in the first half millimetre. So boxes rest some 0.02 mm deep, where fewer faces count as coincident, and stacks do not creep. Measured:
-/// docs/cuboids.md.
+/// Attributes of MuJoCo's `option`.
 inline constexpr const char* kMujocoOptions = R"(timestep="0.001" cone="elliptic" impratio="20" solver="Newton" noslip_iterations="5")";
-inline constexpr const char* kMujocoContact = R"(0.005 0.0001" solref="0.004 1" solimp="0.7 0.95 0.0005")";
+
+/// Attributes of every `geom`: friction for sliding, spinning and rolling; a contact's time constant (s) and damping; and how firm it is, less in the first half
+/// millimetre. So boxes rest some 0.02 mm deep, where fewer faces count as coincident, and stacks do not creep. Measured: docs/cuboids.md.
+std::string mujoco_contact(double friction);
 
 /// m: half size of a box as MuJoCo is given it. Faces that coincide exactly give MuJoCo 2.2 contacts of depth −0.6 m, also where a box has just come down
 /// onto another: 0.1 mm smaller across, and as much larger upright.
