@@ -24,6 +24,7 @@ constexpr double kStepSigmas = 5.0;
 constexpr double kBeforeFaceSigmas = 3.0;
 constexpr double kFlat = 0.9;               // of the points, on sides of boxes
 constexpr double kNearlyFlat = 0.8, kLessRest = 1.0 / 3.0;  // the same, where so much less is on none than before the cut: round spines and edges
+constexpr double kVeryHollow = 0.25, kMostly = 0.6;         // of a hull; of the points, of pieces that each are a box
 constexpr int kFewestFlatPoints = 24;
 constexpr double kTellingSigmas = 8.0;  // of the second of a box's sides: what is thinner is near its surface in any case
 const double kParallelCosine = std::cos(radians(10.0));
@@ -136,15 +137,19 @@ double explained_by_box(const Observation& seen, const DepthView& view, const Pi
 }
 
 /// Whether nearly all of what was seen of the pieces are sides of boxes, or most of it and far more than of the whole, of which `explained_whole` are.
-bool are_boxes(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, const Mat3& whole, double explained_whole) {
+/// Of a whole that is very hollow, most may belong to pieces that each are a box: a shelf with a globe on it.
+bool are_boxes(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, const Look& look, double explained_whole) {
   const GroupedFaces faces = faces_of(seen, pieces);
-  double all = 0, explained = 0;
+  double all = 0, explained = 0, of_boxes = 0;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const double count = static_cast<double>(pieces[k].points.size());
+    const double share = explained_by_box(seen, view, pieces[k], faces.of_group[k], look.interior.axes);
     all += count;
-    explained += count * explained_by_box(seen, view, pieces[k], faces.of_group[k], whole);
+    explained += count * share;
+    if (share >= kFlat) of_boxes += count;
   }
   const double share = explained / all;
+  if (look.whole.hollow.share() > kVeryHollow && of_boxes >= kMostly * all) return true;
   return share >= kFlat || (share >= kNearlyFlat && 1.0 - share <= kLessRest * (1.0 - explained_whole));
 }
 
@@ -169,7 +174,8 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
       std::vector<int> points = std::move(open.back());
       open.pop_back();
       const std::vector<const Face*> own = faces_within(faces, points);
-      const auto [interior, whole] = look_along(seen, view, points, faces.faces.face_of_point, own);
+      const Look look = look_along(seen, view, points, faces.faces.face_of_point, own);
+      const auto& [interior, whole] = look;
       const double hollow = has_steps(seen, own, points.size()) ? kHollowStep : kHollow;
       if (whole.hollow.share() <= hollow) {
         keep(std::move(points));
@@ -177,12 +183,12 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
       }
       const double explained = explained_share(points, own, interior.axes);
       std::vector<Piece> pieces = cut_by_axes(seen, interior, faces.faces.faces, points);
-      if (saves(whole, pieces) && are_boxes(seen, view, pieces, interior.axes, explained)) {
+      if (saves(whole, pieces) && are_boxes(seen, view, pieces, look, explained)) {
         for (Piece& piece : pieces) open.push_back(std::move(piece.points));
         continue;
       }
       pieces = cut_apart(seen, interior, planes_before(seen, own, points.size()), whole, hollow, context);
-      if (pieces.size() < 2 || !are_boxes(seen, view, pieces, interior.axes, explained)) keep(std::move(points));
+      if (pieces.size() < 2 || !are_boxes(seen, view, pieces, look, explained)) keep(std::move(points));
       else
         for (Piece& piece : pieces) keep(std::move(piece.points));
     }

@@ -21,11 +21,16 @@ constexpr double kPixelError = 1.5;       // pixels, of an edge
 constexpr double kFewestSamples = 12;
 constexpr double kInside = 1.5, kOutside = 8.0;  // σ of a side that was seen to end, in mm in and out: measured edges
                                                  // fall short, but points that were measured are there
-constexpr double kSeenSide = 1.5;                // mm, σ of a side that was seen as a face
 constexpr double kStanding = 1e-5;               // m, σ of a bottom that stands on the ground
 constexpr double kTurn = 0.02;                   // rad, σ of the turn
-constexpr double kSlack = 0.0005;                // m that the points may be farther from the box on average
-constexpr double kMoreFree = 0.005;              // of the box, that may be space that was seen free
+
+/// What the picture may do to a box against what was measured.
+struct Latitude {
+  double seen_side;  ///< mm, σ of a side that was seen as a face
+  double slack;      ///< m that the points may be farther from the box on average
+  double more_free;  ///< of the box, that may be space that was seen free
+};
+constexpr std::array<Latitude, 2> kLatitudes = {{{1.5, 0.0005, 0.005}, {0.2, 0.0, -0.001}}};  // the second keeps faces where they were measured
 
 /// What is sought of a box: how far each side moves outward (m; −x, +x, −y, +y, −z, +z) and its turn about its third axis.
 using Change = std::array<double, 7>;
@@ -205,21 +210,23 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
       if (samples[k].size() < kFewestSamples) continue;
       const double sigma = view.sigma(cuboid.box.center), scale = std::max(1.0, sigma / 0.001) * 0.001;
       const auto faces = seen_sides(cuboid.box, points[k], view.viewpoint(), std::max(sigma, 0.001));
-      DepthResidual depth{{}, {}, 0.5 * std::sqrt(static_cast<double>(samples[k].size()) / 6.0)};
-      for (int side = 0; side < 6; ++side) {
-        depth.inside[side] = (faces[side] ? kSeenSide : kInside) * scale;
-        depth.outside[side] = (faces[side] ? kSeenSide : kOutside) * scale;
-      }
-      // Below is what it stands on, and its shadow.
-      depth.outside[4] = kInside * scale;
-      if (stands_on(seen.supports.front(), cuboid.box)) depth.inside[4] = depth.outside[4] = kStanding;
-      const OrientedBox aligned = changed(cuboid.box, align(problem, cuboid.box, samples[k], depth));
-      if (aligned.half_size.minCoeff() <= 0.0) continue;
-      if (misfit(aligned, points[k]) > misfit(cuboid.box, points[k]) + kSlack) continue;
-      // What reaches into space that was seen free could not go down behind what hides it.
       const double voxel = std::max(2.0 * view.spacing(cuboid.box.center), sigma);
-      if (filled_share(view, aligned, voxel) < filled_share(view, cuboid.box, voxel) - kMoreFree) continue;
-      cuboid.box = cuboid.initial = aligned;
+      for (const auto& [seen_side, slack, more_free] : kLatitudes) {
+        DepthResidual depth{{}, {}, 0.5 * std::sqrt(static_cast<double>(samples[k].size()) / 6.0)};
+        for (int side = 0; side < 6; ++side) {
+          depth.inside[side] = (faces[side] ? seen_side : kInside) * scale;
+          depth.outside[side] = (faces[side] ? seen_side : kOutside) * scale;
+        }
+        // Below is what it stands on, and its shadow.
+        depth.outside[4] = kInside * scale;
+        if (stands_on(seen.supports.front(), cuboid.box)) depth.inside[4] = depth.outside[4] = kStanding;
+        const OrientedBox aligned = changed(cuboid.box, align(problem, cuboid.box, samples[k], depth));
+        if (aligned.half_size.minCoeff() <= 0.0 || misfit(aligned, points[k]) > misfit(cuboid.box, points[k]) + slack) continue;
+        // What reaches into space that was seen free could not go down behind what hides it.
+        if (filled_share(view, aligned, voxel) < filled_share(view, cuboid.box, voxel) - more_free) continue;
+        cuboid.box = cuboid.initial = aligned;
+        break;
+      }
     }
   };
   parallel_blocks(context, cuboids.size(), 1, one);

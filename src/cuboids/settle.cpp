@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kExactly = 0.03;   // tolerances
 constexpr double kNoSliding = 10.0; // friction: what settles rocks and drops
-constexpr double kFarthest = 2.0;   // tolerances that a corner may go
+constexpr double kFarthest = 3.0;   // tolerances that a corner may go
 constexpr int kMostSteps = 20000;   // times bodies
 
 /// The rigid velocity with which a group collapses, up to one factor for all.

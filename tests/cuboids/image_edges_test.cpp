@@ -113,6 +113,28 @@ TEST(ImageEdges, WinBackInAPictureOfAnotherScaleToo) {
   }
 }
 
+/// Depth says that the box is higher than the picture has it; it stays so, but the picture's word on the outline counts.
+TEST(ImageEdges, WinBackTheOutlineWhereThePictureDeniesAFace) {
+  Scene measured, photographed;
+  measured.height = 0.9;
+  measured.pitch = radians(70.0);
+  photographed = measured;
+  measured.boxes = {upright(0, 0.3, 0, {0.175, 0.089, 0.044}, 25)};
+  photographed.boxes = {upright(0, 0.3, 0, {0.175, 0.089, 0.038}, 25)};
+  RgbdFrame frame = render(measured);
+  frame.color = render(photographed).color;
+  const Perceived p = perceive(frame);
+  const DepthView view(frame, p.seen.T_world_camera, depth_noise(frame, {}));
+  std::vector<Cuboid> cuboids = p.fitted;
+  ASSERT_EQ(cuboids.size(), 1u);
+  const Vec3 moved(-0.004, 0.004, 0.0);  // of the sides that look away
+  cuboids[0].box.half_size += moved;
+  cuboids[0].box.center += cuboids[0].box.axes * moved;
+  Context context;
+  align_to_image_edges(frame, p.seen, view, cuboids, {}, context);
+  EXPECT_LT(size_error(cuboids[0].box, measured.boxes[0]), 0.003) << 2000.0 * cuboids[0].box.half_size.transpose();
+}
+
 /// The picture shows a rim around the box, a shadow say, but depth saw the ground there.
 TEST(ImageEdges, DoNotPullABoxIntoFreeSpace) {
   constexpr int kRim = 6;  // pixels
