@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "cuboids/complete.h"
@@ -23,8 +24,9 @@ struct State {
   std::vector<Touch> touches;
   Structure structure;
   std::vector<Balance> balances;  ///< one a load
-  double residual = 0;            ///< the largest of them
-  double energy = 0;              ///< what is out of balance, squared and summed over bodies and loads
+  std::vector<double> energies;   ///< a load: what is out of balance, squared and summed over bodies
+  double residual = 0;            ///< the largest of the balances
+  double energy = 0;              ///< summed over loads
 
   double motion(int body) const {
     double largest = 0;
@@ -61,16 +63,22 @@ double energy(const Problem& problem, const Structure& structure, const State& s
   return sum;
 }
 
-/// None if its energy is above the limit.
-std::optional<State> state_of(const Problem& problem, const std::vector<char>& held, Arrangement arrangement, double limit) {
-  State s{std::move(arrangement), {}, {}, {}, 0.0, 0.0};
+/// None if its energy is above the limit, which shows soonest by the loads under which a state that is nearly the same was least at rest.
+std::optional<State> state_of(const Problem& problem, const std::vector<char>& held, Arrangement arrangement, double limit, const State* nearly = nullptr) {
+  const std::vector<Vec3> loads = load_cases(problem.push);
+  State s{std::move(arrangement), {}, {}, std::vector<Balance>(loads.size()), std::vector<double>(loads.size()), 0.0, 0.0};
   s.touches = touching_pairs(problem, s.arrangement);
   s.structure = structure_of(problem, s.arrangement, s.touches, held);
-  for (const Vec3& load : load_cases(problem.push)) {
-    const std::vector<Vec3> start = s.balances.empty() ? std::vector<Vec3>{} : s.balances.front().forces;
-    s.balances.push_back(balance(s.structure.bodies, s.structure.contacts, load, start));
-    s.residual = std::max(s.residual, s.balances.back().residual);
-    s.energy += energy(s.structure, load, s.balances.back().forces);
+  std::vector<std::size_t> order(loads.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (nearly) std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return nearly->energies[a] > nearly->energies[b]; });
+  std::vector<Vec3> start;
+  if (nearly && nearly->structure.contacts.size() == s.structure.contacts.size()) start = nearly->balances[order.front()].forces;
+  for (const std::size_t k : order) {
+    s.balances[k] = balance(s.structure.bodies, s.structure.contacts, loads[k], start);
+    if (k == order.front()) start = s.balances[k].forces;
+    s.residual = std::max(s.residual, s.balances[k].residual);
+    s.energy += s.energies[k] = energy(s.structure, loads[k], s.balances[k].forces);
     if (s.energy >= limit) return std::nullopt;
   }
   return s;
@@ -116,7 +124,7 @@ State grow_hidden_faces(const Problem& problem, const Rooms& rooms, const Admiss
           close_contacts(problem, touching_pairs(problem, next), next);
           if (penetrates(problem, next) || !admissible(next)) break;
           if ((work += problem.bodies()) > kMostGrowth) return best ? *best : now;
-          auto there = state_of(problem, held, std::move(next), least);
+          auto there = state_of(problem, held, std::move(next), least, &now);
           if (!there) continue;
           least = there->energy < kGoodResidual * kGoodResidual ? 0.0 : kBetter * there->energy;
           best = std::move(there);
@@ -158,7 +166,7 @@ void lower_residual(const Problem& problem, const Rooms& rooms, const Admissible
         }
       close_contacts(problem, touching_pairs(problem, next), next);
       if (penetrates(problem, next) || !admissible(next)) continue;
-      if (auto there = state_of(problem, held, std::move(next), 0.98 * now.energy)) {
+      if (auto there = state_of(problem, held, std::move(next), 0.98 * now.energy, &now)) {
         now = std::move(*there);
         better = true;
       }

@@ -324,7 +324,9 @@ TEST(Objects, StrokesPartWhatTouches) {
     frame.strokes.push_back(stroke);
   }
   for (const char* how : {"surface", "grab-cut"}) {
-    const Perceived p = perceive(frame, {.strokes = how});
+    Options options;
+    options.strokes = how;
+    const Perceived p = perceive(frame, options);
     ASSERT_EQ(p.fitted.size(), 2u) << how;
     for (std::size_t b = 0; b < 2; ++b) {
       const Cuboid& cuboid = nearest(p.fitted, scene.boxes[b].center);
