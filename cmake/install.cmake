@@ -5,6 +5,8 @@ get_property(unseen_libraries GLOBAL PROPERTY unseen_libraries)
 install(TARGETS ${unseen_libraries} unseen_unseen EXPORT unseen
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS unseen_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/unseen)
 install(DIRECTORY include/unseen ${PROJECT_BINARY_DIR}/include/unseen DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT unseen NAMESPACE unseen:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/unseen
   FILE unseen-targets.cmake)

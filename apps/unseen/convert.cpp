@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "commands.h"
@@ -21,11 +22,21 @@ struct ConvertArguments {
   io::ReadOptions read;
 };
 
+/// A file cannot be read and replaced at once, nor one in a folder that is read.
+void check_apart(const std::string& in, const std::string& out) {
+  std::error_code error;
+  const std::filesystem::path from = std::filesystem::canonical(in, error);
+  if (error) return;  // opening it says why
+  const std::filesystem::path to = std::filesystem::canonical(out, error);
+  if (!error && (to == from || to.parent_path() == from)) throw UsageError(fmt::format("OUT, {}, is {} IN", out, to == from ? "the same file as" : "a file of the folder"));
+}
+
 int run(ConvertArguments& args) {
   OptionTable table = io::describe(args.read);
   if (resolve_or_dump(table, args.common, "convert", args.given)) return kSolved;
   require(args.in, "IN");
   require(args.out, "OUT");
+  check_apart(args.in, args.out);
 
   Session session(args.common);
   Context& context = session.context;

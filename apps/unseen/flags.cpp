@@ -62,6 +62,7 @@ void resolve(OptionTable& table, const std::string& config_file, const std::stri
 
 void add_flags(CLI::App& app, CommonFlags& flags) {
   app.add_option("--config", flags.config_file, "take options from this TOML file; flags given here win")
+      ->check([](const std::string& file) { return file.empty() ? std::string("names no file") : std::string(); })
       ->type_name("FILE.toml");
   app.add_flag("--dump-config", flags.dump_config, "print all options as such a file, and end");
   app.add_option("--threads", flags.threads, "at most this many threads; 0 = as many as the machine has")

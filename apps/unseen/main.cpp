@@ -2,11 +2,13 @@
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
 
+#include <csignal>
 #include <cstdio>
 #include <new>
 
 #include "commands.h"
 #include "flags.h"
+#include "unexpected.h"
 #include "unseen/core/error.h"
 #include "unseen/core/version.h"
 
@@ -14,7 +16,7 @@ namespace unseen::cli {
 namespace {
 
 int report(int code, const std::string& text) {
-  fmt::print(stderr, "unseen: {}\n", text);
+  std::fputs(fmt::format("unseen: {}\n", text).c_str(), stderr);  // nobody may read it
   return code;
 }
 
@@ -71,6 +73,7 @@ int run(const CLI::App& app, const std::vector<Command>& commands) {
 
 int main(int argc, char** argv) {
   using namespace unseen::cli;
+  std::signal(SIGPIPE, SIG_IGN);  // what nobody reads must not end a run that writes files
   CLI::App app("Finds out what a scan or a video does not show.", "unseen");
   app.set_version_flag("--version", fmt::format("unseen {}", unseen::kVersion));
   app.require_subcommand(0, 1);
@@ -94,6 +97,8 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
     return print_help(app, e);
+  } catch (const CLI::ExtrasError&) {
+    return report(kUsage, fmt::format("{}; see {} --help", unexpected(app), command_name(app)));
   } catch (const CLI::ParseError& e) {
     return report(kUsage, fmt::format("{}; see {} --help", e.what(), command_name(app)));
   }

@@ -20,6 +20,9 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+/// Unlike fmt's, it does not mind that nobody reads it.
+void print(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 }  // namespace
 
 std::string rough_duration(double seconds) {
@@ -53,8 +56,7 @@ void Progress::show(std::string_view stage, double fraction) {
   if (fraction > 0.02 && elapsed > 1.0)
     left = ", " + rough_duration(elapsed * (1 - fraction) / fraction) + " left";
   const int filled = static_cast<int>(fraction * kBar);
-  fmt::print(stderr, "\r\x1b[K{:<14} [{}{}] {:3.0f} %{}", printable(stage), std::string(filled, '='),
-             std::string(kBar - filled, ' '), 100 * fraction, left);
+  print(fmt::format("\r\x1b[K{:<14} [{}{}] {:3.0f} %{}", printable(stage), std::string(filled, '='), std::string(kBar - filled, ' '), 100 * fraction, left));
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -62,11 +64,11 @@ void Progress::show(std::string_view stage, double fraction) {
 void Progress::warn(const std::vector<std::string>& warnings) {
   clear();
   if (quiet_) return;
-  for (const std::string& warning : warnings) fmt::print(stderr, "unseen: warning: {}\n", printable(warning));
+  for (const std::string& warning : warnings) print(fmt::format("unseen: warning: {}\n", printable(warning)));
 }
 
 void Progress::clear() {
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_) print("\r\x1b[K");
   drawn_ = false;
 }
 

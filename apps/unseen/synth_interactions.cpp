@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
 
-
 #include "commands.h"
 #include "synth.h"
 #include "unseen/interactions/synth.h"
@@ -14,8 +13,10 @@
 namespace unseen::cli {
 namespace {
 
-void write_files(const std::vector<report::SceneFile>& files, const io::OutputFolder& out) {
+void write_files(const std::vector<report::SceneFile>& files, const io::OutputFolder& out, const Context& context) {
+  std::size_t written = 0;
   for (const report::SceneFile& file : files) {
+    context.progress(static_cast<double>(written++) / static_cast<double>(files.size()));
     const std::filesystem::path path = out.file(file.path);
     std::filesystem::create_directories(path.parent_path());
     write_text(path, file.text);
@@ -26,11 +27,11 @@ std::string make(const interactions::SynthOptions& options, const SynthRun& run)
   interactions::SynthTake synth;
   {
     const Stage stage(run.context, run.summary, "simulate");
-    synth = interactions::simulate(options);
+    synth = interactions::simulate(options, run.context);
   }
   {
     const Stage stage(run.context, run.summary, "write");
-    write_files(report::interactions_scene_files(synth, run.table), run.out);
+    write_files(report::interactions_scene_files(synth, run.table), run.out, run.context);
   }
   const interactions::Recording& truth = synth.truth;
   run.summary.counts = {{"frames", truth.people.at(0).size()}, {"people", truth.people.size()}, {"objects", truth.objects.size()},

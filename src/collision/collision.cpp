@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "collision/common_error.h"
@@ -106,6 +107,9 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
 
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
   Summary& summary = result.summary;
+  if (shot.bodies.size() != 2) throw InputError(shot.name, "bodies", std::to_string(shot.bodies.size()), "two");
+  if (shot.fps && !(*shot.fps > 0.0 && std::isfinite(*shot.fps))) throw InputError(shot.name, "fps", fmt::format("{}", *shot.fps), "frames per second, above 0");
+  if (!(shot.gravity >= 0.0 && std::isfinite(shot.gravity))) throw InputError(shot.name, "gravity", fmt::format("{}", shot.gravity), "m/s², from 0");
   const std::array<Solid, 2> solids = {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)};
   check_drag(shot, options, solids);
   Evidence evidence = observe(shot, context, summary);

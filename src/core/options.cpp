@@ -75,6 +75,7 @@ std::string Option::text() const {
 }
 
 std::string Option::range() const {
+  if (std::holds_alternative<bool*>(target) || (std::holds_alternative<std::string*>(target) && choices.empty())) return "";
   if (!choices.empty()) return fmt::format("one of {}", fmt::join(choices, ", "));
   const bool low = std::isfinite(min), high = std::isfinite(max);
   const bool positive = min == std::numeric_limits<double>::min();

@@ -41,10 +41,11 @@ bool touches(const Pose& pose, const Object& object) {
 }
 
 /// Poses at the frames, and which pieces are touched in them.
-void record(Recording& truth, const Cast& cast, const View& view, int frames) {
+void record(Recording& truth, const Cast& cast, const View& view, int frames, const Context& context) {
   std::set<int> touched;
   truth.people.resize(cast.size());
   for (int f = 0; f < frames; ++f) {
+    context.progress(static_cast<double>(f) / frames);
     std::vector<Figure> figures;
     std::vector<Action> actions;
     for (const auto& [body, motion] : cast) {
@@ -86,7 +87,7 @@ OptionTable describe(SynthOptions& o) {
   return t;
 }
 
-SynthTake simulate(const SynthOptions& options) {
+SynthTake simulate(const SynthOptions& options, const Context& context) {
   check_options(options, "synth");
   Random random(static_cast<std::uint64_t>(options.seed));
   const View view = draw_view(options.width, options.height, random);
@@ -105,7 +106,7 @@ SynthTake simulate(const SynthOptions& options) {
   truth.fps = options.fps;
   truth.T_world_camera = view.T_world_camera;
   for (const Piece& piece : room.pieces) truth.objects.push_back(piece.object);
-  record(truth, cast, view, std::max(1, static_cast<int>(std::lround(options.seconds * options.fps))));
+  record(truth, cast, view, std::max(1, static_cast<int>(std::lround(options.seconds * options.fps))), context);
 
   Take& take = synth.take;
   take.name = truth.name;

@@ -49,9 +49,9 @@ class JsonField {
   /// The members of an object, in the file's order of names.
   std::vector<std::pair<std::string, JsonField>> members() const;
 
+  static constexpr double kLargest = 1e100;  ///< products of what is larger may not be finite
   std::string text() const;
-  double number(double min = -std::numeric_limits<double>::infinity(),
-                double max = std::numeric_limits<double>::infinity()) const;
+  double number(double min = -kLargest, double max = kLargest) const;
   bool truth() const;
   std::size_t count() const;
   /// Index of something of which there are `size`.

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "io/pcd_header.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "io/text.h"
@@ -86,6 +88,7 @@ class HeaderParser {
     for (std::size_t i = 0; i < count; ++i) {
       PcdField field;
       field.name = names->second[i];
+      if (field.name != "_" && std::count(names->second.begin(), names->second.end(), field.name) > 1) fail("FIELDS", shown(field.name) + " twice", "each once");
       if (!scalar_of(types[i], count_at("SIZE", sizes[i]), field.type))
         fail("TYPE of field " + field.name,
              std::string(types[i].substr(0, 8)) + " of " + shown(sizes[i]) + " bytes",
@@ -101,16 +104,15 @@ class HeaderParser {
   }
 
   void read_counts() {
-    if (entries_.count("POINTS")) {
-      header_.points = count_at("POINTS", entry("POINTS", 1)[0]);
-      return;
-    }
+    if (entries_.count("POINTS")) header_.points = count_at("POINTS", entry("POINTS", 1)[0]);
+    if (!entries_.count("WIDTH") && entries_.count("POINTS")) return;
     const std::size_t width = count_at("WIDTH", entry("WIDTH", 1)[0]);
     const std::size_t height = entries_.count("HEIGHT") ? count_at("HEIGHT", entry("HEIGHT", 1)[0]) : 1;
     if (height > 0 && width > bytes_.size() / height)
       fail("WIDTH", std::to_string(width) + " x " + std::to_string(height) + " points",
            "no more than the file can hold");
-    header_.points = width * height;
+    if (!entries_.count("POINTS")) header_.points = width * height;
+    if (header_.points < width * height) fail("POINTS", std::to_string(header_.points), std::to_string(width * height) + ", as WIDTH and HEIGHT say");
   }
 
   void read_viewpoint() {
@@ -118,9 +120,9 @@ class HeaderParser {
     const auto& texts = entry("VIEWPOINT", 7);
     Vec3 point = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
-      if (!to_number(texts[i], point[i])) fail("VIEWPOINT", shown(texts[i]), "a number");
+      if (!to_number(texts[i], point[i]) || !std::isfinite(point[i])) fail("VIEWPOINT", shown(texts[i]), "a number");
     // The origin is what every writer puts there that does not know.
-    if (point.allFinite() && point != Vec3::Zero()) header_.viewpoint = point;
+    if (point != Vec3::Zero()) header_.viewpoint = point;
   }
 
   void read_data() {

@@ -10,6 +10,8 @@
 namespace unseen::io {
 namespace {
 
+constexpr double kRightAngles = 0.02;  // how far a matrix may be from a rotation and a scale: files round
+
 /// Scans one after another, each a grid of points in the scanner's coordinates and the matrix into the
 /// world's.
 class PtxSource final : public PointSource {
@@ -52,6 +54,10 @@ class PtxSource final : public PointSource {
                      "the " + std::to_string(size_) + " of the scan");
   }
 
+  [[noreturn]] void fail_matrix() const {
+    throw InputError(info_.name, "line " + std::to_string(lines_.number()) + ", matrix", "one that bends or flattens", "rotation, scale and translation, a column of the usual matrix in each line");
+  }
+
   /// False at the end of the file, where that is no fault.
   bool read_scan_header() {
     std::string_view line;
@@ -80,8 +86,12 @@ class PtxSource final : public PointSource {
       const Vec3 row(numbers4[0], numbers4[1], numbers4[2]);
       if (!row.allFinite())
         throw InputError(info_.name, "matrix", "a number that is not finite", "finite numbers");
+      if (numbers4[3] != (i < 3 ? 0.0 : 1.0)) fail_matrix();
       i < 3 ? void(rotation_.col(i) = row) : void(translation_ = row);
     }
+    const Mat3 squared = rotation_.transpose() * rotation_;
+    const double scale = squared.trace() / 3.0;  // its square
+    if (!(scale > 0.0) || (squared / scale - Mat3::Identity()).cwiseAbs().maxCoeff() > kRightAngles) fail_matrix();
     return true;
   }
 

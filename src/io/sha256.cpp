@@ -3,6 +3,7 @@
 #include "unseen/io/sha256.h"
 
 #include <openssl/evp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <memory>
@@ -72,9 +73,10 @@ std::string sha256(const fs::path& path, const Context& context) {
   std::sort(files.begin(), files.end());
   Digest digest;
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(files.size(), 1));
-  for (std::size_t i = 0; i < files.size(); ++i)
-    digest.add(file_digest(files[i], context, share * static_cast<double>(i), share) + "  " +
-               files[i].filename().string() + "\n");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (::access(files[i].c_str(), R_OK) != 0) continue;  // was no input either
+    digest.add(file_digest(files[i], context, share * static_cast<double>(i), share) + "  " + files[i].filename().string() + "\n");
+  }
   return digest.hex();
 }
 

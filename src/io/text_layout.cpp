@@ -189,8 +189,8 @@ class Guess {
     std::vector<const char*> list;
     for (const Column& column : layout_.columns)
       list.push_back(kNames[static_cast<std::size_t>(column.role)]);
-    layout_.notes.push_back(fmt::format("columns read as {} ({})", fmt::join(list, " "),
-                                        names_.size() == sample_.width ? "by their names" : "guessed"));
+    layout_.notes.push_back(fmt::format("columns read as {} ({}), separated by {}", fmt::join(list, " "), names_.size() == sample_.width ? "by their names" : "guessed",
+                                        layout_.separator == ',' ? "commas" : layout_.separator == ';' ? "semicolons" : "blanks"));
     if (header_lines_ > 0 && names_.empty()) layout_.notes.push_back("the header names no x and y");
     if (layout_.two_dimensional) layout_.notes.push_back("no z: read as a drawing");
     if (layout_.decimal_comma) layout_.notes.push_back("commas read as decimal points");

@@ -18,10 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_tile(const fs::path& path) {
+Format format_by_name(const fs::path& path) {
   std::string extension = lower(path.extension().string());
   if (!extension.empty()) extension.erase(0, 1);
-  switch (format_of_extension(extension)) {
+  return format_of_extension(extension);
+}
+
+bool is_tile(const fs::path& path) {
+  switch (format_by_name(path)) {
     case Format::ply:
     case Format::pcd:
     case Format::las:
@@ -34,6 +38,8 @@ bool is_tile(const fs::path& path) {
   }
 }
 
+bool is_drawn(const fs::path& path) { return format_by_name(path) != Format::unknown && !is_tile(path); }
+
 /// One file after another; only one is open at a time.
 class TilesSource final : public PointSource {
  public:
@@ -45,7 +51,7 @@ class TilesSource final : public PointSource {
     for (const fs::path& path : paths) inspect(path);
     if (tiles_.empty())
       throw InputError(info_.name, "folder",
-                       paths.empty() ? "no point files" : "no usable tile (" + info_.notes.back() + ")",
+                       paths.empty() ? (info_.notes.empty() ? "no point files" : "no point files (" + info_.notes.front() + ")") : "no usable tile (" + info_.notes.back() + ")",
                        "point files, or depth frames with camera-intrinsics.txt");
     check_together();
     info_.has_normals = keep_.normals;
@@ -79,15 +85,22 @@ class TilesSource final : public PointSource {
   std::vector<fs::path> find_tiles(const fs::path& folder) {
     const auto results = result_files(folder);
     std::vector<fs::path> paths;
+    std::vector<std::string> drawn;
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (!entry.is_regular_file() || !is_tile(entry.path())) continue;
       const std::string name = entry.path().filename().string();
+      if (!entry.is_regular_file() || name.front() == '.') continue;
+      if (!is_tile(entry.path())) {
+        if (is_drawn(entry.path())) drawn.push_back(name);
+        continue;
+      }
       if (results.count(name) > 0)
         info_.notes.push_back(name + ": from the result of an earlier run, not read as a tile");
       else
         paths.push_back(entry.path());
     }
     std::sort(info_.notes.begin(), info_.notes.end());
+    if (!drawn.empty())
+      info_.notes.push_back(fmt::format("{} not read as tiles, as meshes and pictures are not ({}{})", drawn.size(), *std::min_element(drawn.begin(), drawn.end()), drawn.size() > 1 ? ", …" : ""));
     std::sort(paths.begin(), paths.end());
     return paths;
   }

@@ -31,7 +31,7 @@ void write_points(const std::filesystem::path& path, PointSource& source, Contex
   AtomicFile file(path);
   PointCloud block;
   source.rewind();
-  if (!source.next(block)) block = {};
+  if (!source.next(block)) throw InputError(source.info().name, "content", "no points", "points");
   const Attributes has{!block.normals.empty(), !block.colors.empty(), !block.labels.empty()};
   writer({file.path(), source, has, context});
   file.commit();

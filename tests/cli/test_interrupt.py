@@ -87,13 +87,17 @@ class Interrupt(CliTest):
                 self.assert_old_or_new(run, text)
         self.assertGreaterEqual(codes.count(130), (len(codes) + 1) // 2, list(zip(stages, codes)))
 
-    def test_terminate_is_the_same(self):
-        run, terminal = self.start()
-        self.follow(run, terminal, until=r"\[[= ]*\]")
-        run.send_signal(signal.SIGTERM)
-        text = self.follow(run, terminal)
-        self.assertEqual(run.returncode, 130, text)
-        self.assert_old_or_new(run, text)
+    def test_terminate_and_hangup_are_the_same(self):
+        for sent in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(sent) == signal.SIG_IGN:  # under nohup, which the program respects
+                continue
+            with self.subTest(sent=sent):
+                run, terminal = self.start()
+                self.follow(run, terminal, until=r"\[[= ]*\]")
+                run.send_signal(sent)
+                text = self.follow(run, terminal)
+                self.assertEqual(run.returncode, 130, text)
+                self.assert_old_or_new(run, text)
 
     def test_kill_leaves_the_old_result(self):
         run, terminal = self.start()

@@ -41,6 +41,22 @@ class Convert(CliTest):
         self.assert_one_line(self.unseen("convert", "room.ply", "/dev/null/room.pcd"), 3, "/dev/null/room.pcd")
         self.assertEqual(contents(self.folder), before)
 
+    def test_reads_nothing_that_it_replaces(self):
+        self.room_file()
+        (self.folder / "link.ply").symlink_to("room.ply")
+        (self.folder / "tiles").mkdir()
+        (self.folder / "tiles/a.xyz").write_text("1 2 3\n4 5 6\n")
+        before = contents(self.folder)
+        self.assert_one_line(self.unseen("convert", "room.ply", "room.ply"), 2, "room.ply", "the same file as IN")
+        self.assert_one_line(self.unseen("convert", "link.ply", "room.ply"), 2, "room.ply", "the same file as IN")
+        self.assert_one_line(self.unseen("convert", "tiles", "tiles/a.xyz"), 2, "tiles/a.xyz", "a file of the folder IN")
+        self.assertEqual(contents(self.folder), before)
+
+    def test_no_points_are_no_cloud(self):
+        (self.folder / "none.ptx").write_text("1\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n0 0 0 0.5\n")
+        self.assert_one_line(self.unseen("convert", "none.ptx", "none.ply"), 3, "none.ptx", "no points")
+        self.assertFalse((self.folder / "none.ply").exists())
+
 
 class Evaluate(CliTest):
     def setUp(self):

@@ -3,11 +3,14 @@
 """unseen synth interactions: what it writes, and the options that it refuses."""
 
 import json
+import signal
+import subprocess
+import time
 import unittest
 
 import numpy
 
-from harness import CliTest
+from harness import PROGRAM, CliTest
 
 
 class SynthInteractions(CliTest):
@@ -38,6 +41,14 @@ class SynthInteractions(CliTest):
         out = self.synth("--lifted=false")
         self.assertNotIn("lifted", json.loads((out / "take.json").read_text()))
         self.assertFalse((out / "lifted.json").exists())
+
+    def test_an_interrupt_ends_it(self):
+        run = subprocess.Popen([PROGRAM, "synth", "interactions", "-o", "out", "--seconds", "600", "--fps", "60"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        time.sleep(1.5)  # of about ten
+        run.send_signal(signal.SIGINT)
+        said = run.communicate(timeout=30)[1]
+        self.assertEqual(run.returncode, 130, said)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_refuses_what_is_outside_of_the_range(self):
         run = self.unseen("synth", "interactions", "-o", "out", "--people", "9")

@@ -3,9 +3,10 @@
 """Help, versions, wrong command lines and config files."""
 
 import json
+import subprocess
 import unittest
 
-from harness import SOURCE, CliTest
+from harness import PROGRAM, SOURCE, CliTest
 
 COMMANDS = (["planes"], ["convert"], ["synth", "planes"], ["evaluate", "planes"])
 
@@ -50,6 +51,21 @@ class WrongCommandLines(CliTest):
             with self.subTest(arguments=arguments):
                 self.assert_one_line(self.unseen(*arguments), 2, word, "--help")
                 self.assertFalse((self.folder / "out").exists())
+
+    def test_says_what_may_have_been_meant(self):
+        for arguments, word, meant in ((["planes", "room.ply", "--scal", "1"], "--scal", "--scale"), (["plains", "room.ply"], "plains", "planes"),
+                                       (["synth", "plane", "-o", "out"], "plane", "planes"), (["convert", "a.ply", "b.ply", "--quite"], "--quite", "--quiet")):
+            with self.subTest(arguments=arguments):
+                self.assert_one_line(self.unseen(*arguments), 2, f"{word} is not known (did you mean {meant}?)", "--help")
+
+    def test_does_not_mind_that_nobody_reads_what_it_says(self):
+        (self.folder / "room.csv").write_text("x,y,z,intensity\n1,2,3,77\n4,5,6,88\n7,8,1,99\n")  # there is a warning
+        for arguments, code in (("convert room.csv room.ply", 0), ("convert none.csv none.ply", 3), ("planes --bad", 2)):
+            for stderr in ("2>&-", "2>/dev/full"):
+                with self.subTest(arguments=arguments, stderr=stderr):
+                    run = subprocess.run(f"'{PROGRAM}' {arguments} {stderr}", shell=True, cwd=self.folder, timeout=60)
+                    self.assertEqual(run.returncode, code)
+        self.assertTrue((self.folder / "room.ply").exists())
 
     def test_option_values_are_checked(self):
         self.room_file()

@@ -104,6 +104,24 @@ TEST(Reconstruct, ABounceOfWhichThreeTenthsOfASecondAreUnseen) {
   EXPECT_NEAR(r.restitution->value, 0.7, 0.02);
 }
 
+TEST(Reconstruct, RefusesShotsThatNoFileHolds) {  // made in code
+  const std::vector<std::pair<std::string, std::function<void(Shot&)>>> faults = {{"bodies", [](Shot& shot) { shot.bodies.clear(); }},
+                                                                                  {"fps", [](Shot& shot) { shot.fps = 0.0; }},
+                                                                                  {"fps", [](Shot& shot) { shot.fps = INFINITY; }},
+                                                                                  {"gravity", [](Shot& shot) { shot.gravity = NAN; }}};
+  for (const auto& [field, spoil] : faults) {
+    Shot shot = bouncing_ball(0.7, 55);
+    spoil(shot);
+    Context context;
+    try {
+      reconstruct(shot, {}, context);
+      ADD_FAILURE() << field;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.field, field);
+    }
+  }
+}
+
 TEST(Reconstruct, OneRestitutionForAllImpactsIfAsked) {
   Context context;
   Options options;

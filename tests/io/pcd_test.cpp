@@ -35,6 +35,9 @@ TEST(Pcd, FaultsNameFileAndField) {
     expect_read_error(s, "bad.pcd", parts);
   };
   bad(pcd("ascii"), "POINTS 2", "POINTS 3", {"POINTS", "2 points", "the 3"});
+  bad(pcd("ascii"), "POINTS 2", "POINTS 1", {"POINTS", "1", "2, as WIDTH and HEIGHT say"});
+  bad(pcd("ascii"), "FIELDS x y", "FIELDS x x", {"FIELDS", "twice"});
+  bad(pcd("ascii"), "VIEWPOINT 1", "VIEWPOINT nan", {"VIEWPOINT", "nan"});
   bad(pcd("ascii"), "POINTS 2", "POINTS -2", {"POINTS", "-2"});
   bad(pcd("ascii"), "POINTS 2", "POINTS 1000000000", {"POINTS", "1000000000"});
   bad(pcd("binary"), "POINTS 2", "POINTS 1000000000", {"POINTS", "2 points", "1000000000"});

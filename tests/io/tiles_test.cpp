@@ -51,6 +51,18 @@ TEST(Tiles, InDifferentCoordinatesAreRefused) {
   expect_error([&] { open_points(folder.path); }, {folder.path.string(), "tiles", "local.xyz and utm.xyz 5423 km apart", "same coordinates"});
 }
 
+TEST(Tiles, MeshesPicturesAndHiddenFilesAreNone) {
+  const ScratchFolder folder;
+  write_file(folder / "a.xyz", "1 2 3\n");
+  write_file(folder / ".b.xyz", "4 5 6\n");
+  write_file(folder / "c.obj", "v 1 2 3\n");
+  write_file(folder / "d.png", png8({"#"}));
+  const auto source = open_points(folder.path);
+  EXPECT_EQ(read_all(*source).size(), 1u);
+  ASSERT_FALSE(source->info().notes.empty());
+  EXPECT_NE(source->info().notes[0].find("2 not read as tiles, as meshes and pictures are not (c.obj, …)"), std::string::npos);
+}
+
 TEST(Tiles, NothingUsableIsAnError) {
   const ScratchFolder folder;
   expect_error([&] { open_points(folder.path); }, {folder.path.string(), "no point files"});

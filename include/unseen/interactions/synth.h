@@ -31,7 +31,8 @@ struct SynthTake {
 };
 
 /// People walk, turn, sit down, sit, stand up, reach, lean and lie among furniture; the camera is 0.8 to 1.8 m high and pitched by 0 to 10°;
-/// joints are hidden by ray casting against boxes and bodies. Same options, same bytes. Throws InputError for options outside their range.
-SynthTake simulate(const SynthOptions& options);
+/// joints are hidden by ray casting against boxes and bodies. Same options, same bytes. Throws InputError for options outside their range, and Cancelled if
+/// `context` was asked to stop.
+SynthTake simulate(const SynthOptions& options, const Context& context = {});
 
 }  // namespace unseen::interactions
