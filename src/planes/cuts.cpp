@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 
 namespace unseen::planes {
 namespace {
@@ -18,6 +20,8 @@ constexpr double kRounded = 3.0, kLeastStep = 0.01;  // and of the steps of coor
 constexpr double kBent = 0.25;            // of the tolerance: what is bent several times is off one plane by more, in the mean: noise may be correlated
 constexpr int kMostPieces = 5;           // straight ones, of what is bent several times
 constexpr int kSlices = 12;
+constexpr int kFiner = 4;                // times as many, of what is bent or stepped more often than that
+constexpr double kSteppedGain = 0.4;     // there, of steps
 
 double squared_error(const Moments& m, const Space& space) {
   const PlaneFit fit = fit_plane(m, space);
@@ -30,16 +34,16 @@ struct Slices {
   std::vector<int> of_voxel;  ///< parallel to the region
 };
 
-Slices slices_along(const Vec3& axis, const VoxelGrid& grid, const std::vector<int>& region) {
+Slices slices_along(const Vec3& axis, const VoxelGrid& grid, const std::vector<int>& region, int count = kSlices) {
   std::vector<double> along;
   for (const int i : region) along.push_back(axis.dot(grid.moments[i].mean));
   const auto [low, high] = std::minmax_element(along.begin(), along.end());
-  const double step = (*high - *low) / kSlices;
+  const double step = (*high - *low) / count;
   Slices slices;
   if (!(step > 0)) return slices;
-  slices.sum.resize(kSlices);
+  slices.sum.resize(count);
   for (std::size_t i = 0; i < region.size(); ++i) {
-    slices.of_voxel.push_back(std::min(kSlices - 1, static_cast<int>((along[i] - *low) / step)));
+    slices.of_voxel.push_back(std::min(count - 1, static_cast<int>((along[i] - *low) / step)));
     slices.sum[slices.of_voxel[i]] += grid.moments[region[i]];
   }
   return slices;
@@ -67,10 +71,11 @@ double least_step(const VoxelGrid& grid, double variance) {
 struct Cut {
   int at = 0;  ///< slices below it are one side; 0 = none
   double error = std::numeric_limits<double>::infinity();
+  bool too_many = false;  ///< pieces
 };
 
-/// The single cut that leaves least, if that is less than `most`. Flat hinges and steps must leave less than `shallow`.
-Cut best_single(const std::vector<Moments>& slice, const VoxelGrid& grid, const Space& space, double most, double shallow) {
+/// The single cut that leaves least, if that is less than `most`. Flat hinges must leave less than `shallow`, steps less than `stepped`.
+Cut best_single(std::span<const Moments> slice, const VoxelGrid& grid, const Space& space, double most, double shallow, double stepped) {
   const double least = space.is_2d() ? 5 : 10;  // points
   std::vector<Moments> above(kSlices + 1);
   for (int c = kSlices - 1; c >= 0; --c) above[c] = above[c + 1] + slice[c];
@@ -83,7 +88,7 @@ Cut best_single(const std::vector<Moments>& slice, const VoxelGrid& grid, const 
     const double error = a.fit.rms * a.fit.rms * below.count + b.fit.rms * b.fit.rms * above[c].count;
     if (error >= best.error) continue;
     const double hinge = line_angle(a.fit.normal, b.fit.normal);
-    if (hinge < kSplitAngle && error > shallow) continue;
+    if (hinge < kSplitAngle && error > (hinge < kShallow ? stepped : shallow)) continue;
     if (hinge < kShallow && step_between(a, b) < least_step(grid, error / (below.count + above[c].count))) continue;
     best = {c, error};
   }
@@ -136,7 +141,7 @@ Cut sharpest_bend(const std::vector<Moments>& slice, const VoxelGrid& grid, cons
   const Pieces pieces = best_pieces(error);
   int k = 2;
   while (k <= kMostPieces && pieces.error[k] - by_slices > kShallowGain * bent) ++k;
-  if (k > kMostPieces) return {};
+  if (k > kMostPieces) return {.too_many = true};
   const std::vector<int>& ends = pieces.ends[k];
   std::vector<Piece> straight;
   for (std::size_t p = 0; p + 1 < ends.size(); ++p) {
@@ -159,6 +164,17 @@ Cut sharpest_bend(const std::vector<Moments>& slice, const VoxelGrid& grid, cons
   return cut;
 }
 
+/// Of a region that is bent or stepped too often for few pieces: the cut that leaves the least share of the error within some kSlices of its finer slices.
+Cut best_within(const std::vector<Moments>& slice, const VoxelGrid& grid, const Space& space) {
+  Cut best{0, kSteppedGain};  // the error as a share
+  for (int from = 0; from + kSlices <= static_cast<int>(slice.size()); from += kSlices / kFiner) {
+    const auto window = std::span(slice).subspan(from, kSlices);
+    const double error = squared_error(std::accumulate(window.begin(), window.end(), Moments{}, [](const Moments& a, const Moments& b) { return a + b; }), space);
+    if (const Cut cut = best_single(window, grid, space, best.error * error, kShallowGain * error, kSteppedGain * error); cut.at > 0) best = {from + cut.at, cut.error / error};
+  }
+  return best;
+}
+
 }  // namespace
 
 std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
@@ -167,20 +183,33 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
   const bool large = region.size() >= kShallowCells;
   const double error = squared_error(whole, space), shallow = large ? kShallowGain * error : 0.0;
   const int directions = space.is_2d() ? 1 : 8;
-  std::vector<Slices> slices;
-  for (int d = 0; d < directions; ++d) {
-    const double angle = kPi * d / directions;
-    Slices along = slices_along(std::cos(angle) * fit.u + std::sin(angle) * fit.v, grid, region);
-    if (!along.sum.empty()) slices.push_back(std::move(along));
-  }
+  const auto slices_of = [&](int count) {
+    std::vector<Slices> slices;
+    for (int d = 0; d < directions; ++d) {
+      const double angle = kPi * d / directions;
+      Slices along = slices_along(std::cos(angle) * fit.u + std::sin(angle) * fit.v, grid, region, count);
+      if (!along.sum.empty()) slices.push_back(std::move(along));
+    }
+    return slices;
+  };
+  std::vector<Slices> slices = slices_of(kSlices);
   Cut best{0, kSplitGain * error};
   const Slices* of_best = nullptr;
   for (const Slices& along : slices)
-    if (const Cut cut = best_single(along.sum, grid, space, best.error, shallow); cut.at > 0) best = cut, of_best = &along;
+    if (const Cut cut = best_single(along.sum, grid, space, best.error, shallow, shallow); cut.at > 0) best = cut, of_best = &along;
   if (of_best == nullptr && large && !space.is_2d()) {
     best = {};
-    for (const Slices& along : slices)
-      if (const Cut cut = sharpest_bend(along.sum, grid, space); cut.at > 0 && cut.error < best.error) best = cut, of_best = &along;
+    bool too_many = false;
+    for (const Slices& along : slices) {
+      const Cut cut = sharpest_bend(along.sum, grid, space);
+      too_many |= cut.too_many;
+      if (cut.at > 0 && cut.error < best.error) best = cut, of_best = &along;
+    }
+    if (of_best == nullptr && too_many) {
+      slices = slices_of(kFiner * kSlices);
+      for (const Slices& along : slices)
+        if (const Cut cut = best_within(along.sum, grid, space); cut.at > 0 && cut.error < best.error) best = cut, of_best = &along;
+    }
   }
   std::pair<std::vector<int>, std::vector<int>> sides;
   if (of_best != nullptr)

@@ -59,6 +59,14 @@ TEST(Cuts, StepsAreCutWhereTheyAre) {
   EXPECT_EQ(place_of_cut(cut_of_strip([](double x) { return x < 6.0 ? 0.0 : 0.01; })), 0) << "1 cm, at a noise of 5 mm";
 }
 
+TEST(Cuts, ManyStepsAreCutWhereTheyAre) {  // more than slices of the whole can tell
+  for (const double tread : {2.4, 2.0, 1.5}) {
+    const double at = 0.1 * place_of_cut(cut_of_strip([&](double x) { return 0.05 * std::floor(x / tread); }));
+    EXPECT_GT(at, 0.0) << tread;
+    EXPECT_LT(std::abs(std::remainder(at, tread)), 0.3) << tread << " " << at;
+  }
+}
+
 TEST(Cuts, NoiseAndGentleWavesAreNotCut) {
   EXPECT_TRUE(cut_of_strip([](double) { return 0.0; }).first.empty());
   EXPECT_TRUE(cut_of_strip([](double x) { return zigzag(x, 0.008); }).first.empty()) << "bends of 0.9°";
