@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kStepTolerance = 0.25;  // of the scale: offsets this close are equal
 constexpr std::size_t kMostPerDirection = 400;
+constexpr double kByChance = 0.05;  // rows as long that a direction may be expected to have by chance
 
 /// Extent of a plane's outline along two axes of its plane.
 struct Extent {
@@ -38,6 +39,19 @@ bool overlap(const Extent& a, const Extent& b, bool two_dimensional) {
   return a.low_u < b.high_u && b.low_u < a.high_u && (two_dimensional || (a.low_v < b.high_v && b.low_v < a.high_v));
 }
 
+/// Planes at equal steps.
+Spacing spacing_of(const std::vector<int>& planes, const Arrangement& result) {
+  const auto offset = [&](std::size_t i) { return result.planes[planes[i]].plane.offset; };
+  const std::size_t last = planes.size() - 1;
+  Spacing s;
+  s.planes = planes;
+  s.step = (offset(last) - offset(0)) / static_cast<double>(last);
+  double sum = 0;
+  for (std::size_t i = 0; i <= last; ++i) sum += std::pow(offset(i) - offset(0) - s.step * static_cast<double>(i), 2);
+  s.rms = std::sqrt(sum / static_cast<double>(planes.size()));
+  return s;
+}
+
 /// Runs of at least three planes, each a step farther than the one before.
 void find_steps(const std::vector<int>& by_offset, double tolerance, Arrangement& result) {
   const auto offset = [&](std::size_t i) { return result.planes[by_offset[i]].plane.offset; };
@@ -51,17 +65,45 @@ void find_steps(const std::vector<int>& by_offset, double tolerance, Arrangement
       ++first;
       continue;
     }
-    Spacing s;
-    s.step = (offset(last) - offset(first)) / static_cast<double>(last - first);
-    double sum = 0;
-    for (std::size_t i = first; i <= last; ++i) {
-      s.planes.push_back(by_offset[i]);
-      const double d = offset(i) - offset(first) - s.step * static_cast<double>(i - first);
-      sum += d * d;
-    }
-    s.rms = std::sqrt(sum / static_cast<double>(s.planes.size()));
-    result.spacing.push_back(std::move(s));
+    result.spacing.push_back(spacing_of({by_offset.begin() + first, by_offset.begin() + last + 1}, result));
     first = last;
+  }
+}
+
+/// Rows of planes at equal steps with others between them, as the sides of windows: the longest first, each plane in one, and none of which so many may be
+/// expected by chance.
+void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement& result) {
+  const std::size_t count = by_offset.size();
+  if (count < 4) return;
+  std::vector<double> offsets;
+  for (const int p : by_offset) offsets.push_back(result.planes[p].plane.offset);
+  const double hit = std::min(1.0, 2.0 * tolerance * static_cast<double>(count) / (offsets.back() - offsets.front()));  // chance that a place has a plane
+  const auto by_chance = [&](std::size_t planes) { return 0.5 * static_cast<double>(count * count) * std::pow(hit, static_cast<double>(planes) - 2.0); };
+  std::vector<char> taken(count, 0);
+  const auto row_from = [&](std::size_t first, std::size_t second) {
+    std::vector<std::size_t> row = {first, second};
+    const double step = offsets[second] - offsets[first];
+    for (;;) {
+      const double next = offsets[row.back()] + step;
+      std::size_t i = std::lower_bound(offsets.begin(), offsets.end(), next - tolerance) - offsets.begin();
+      while (i < count && taken[i]) ++i;
+      if (i == count || offsets[i] > next + tolerance) return row;
+      row.push_back(i);
+    }
+  };
+  for (;;) {
+    std::vector<std::size_t> best;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = i + 1; k < count && !taken[i]; ++k)
+        if (!taken[k] && offsets[k] - offsets[i] > 4 * tolerance)
+          if (std::vector<std::size_t> row = row_from(i, k); row.size() > best.size()) best = std::move(row);
+    if (best.size() < 4 || by_chance(best.size()) > kByChance) return;
+    std::vector<int> planes;
+    for (const std::size_t i : best) planes.push_back(by_offset[i]), taken[i] = 1;
+    const auto is_known = [&](const Spacing& s) {
+      return std::all_of(planes.begin(), planes.end(), [&](int plane) { return std::find(s.planes.begin(), s.planes.end(), plane) != s.planes.end(); });
+    };
+    if (std::none_of(result.spacing.begin(), result.spacing.end(), is_known)) result.spacing.push_back(spacing_of(planes, result));
   }
 }
 
@@ -122,6 +164,7 @@ void find_second_order(Arrangement& result) {
       if (group.size() > 1) result.coplanar.push_back(std::move(group));
     }
     find_steps(levels, tolerance, result);
+    find_rows(levels, tolerance, result);
     find_equal_lengths(planes, u, v, tolerance, result);
     std::vector<Extent> extents;
     for (const int p : planes) extents.push_back(extent_of(result.planes[p], u, v));
