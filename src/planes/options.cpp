@@ -8,7 +8,7 @@ OptionTable describe(Options& o) {
   constexpr double kInf = std::numeric_limits<double>::infinity();
   constexpr double kTiny = std::numeric_limits<double>::min();
   OptionTable table;
-  table.add({"scale", &o.scale, "m", "structures larger than this are kept; also the measurement tolerance. Without it, it is estimated from spacing and noise", kTiny, kInf, {}});
+  table.add({"scale", &o.scale, "m", "structures larger than this are kept (narrow strips from 2.7 times it); also the measurement tolerance. Without it, it is estimated from spacing and noise", kTiny, kInf, {}});
   table.add({"relative_scale", &o.relative_scale, "1", "scale as a share of the longest edge of the bounding box", kTiny, 1.0, {}});
   table.add({"angles", &o.angles, "deg", "angles that the scene repeats; multiples below 180° are meant too", 1.0, 180.0, {}});
   table.add({"lambda", &o.lambda, "1", "1 keeps every local fit, 0 asks for one orientation frame", 0.0, 1.0, {}});
