@@ -27,8 +27,8 @@ void check_apart(const std::string& in, const std::string& out) {
   std::error_code error;
   const std::filesystem::path from = std::filesystem::canonical(in, error);
   if (error) return;  // opening it says why
-  const std::filesystem::path to = std::filesystem::canonical(out, error);
-  if (!error && (to == from || to.parent_path() == from)) throw UsageError(fmt::format("OUT, {}, is {} IN", out, to == from ? "the same file as" : "a file of the folder"));
+  if (std::filesystem::equivalent(in, out, error)) throw UsageError(fmt::format("OUT, {}, is the same file as IN", out));
+  if (std::filesystem::weakly_canonical(out, error).parent_path() == from) throw UsageError(fmt::format("OUT, {}, lies in the folder IN", out));
 }
 
 int run(ConvertArguments& args) {

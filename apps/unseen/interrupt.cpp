@@ -30,7 +30,8 @@ void watch(const std::stop_token& end, std::stop_source run) {
   const sigset_t set = signals();
   const timespec nap = {0, 50'000'000};
   while (!end.stop_requested()) {
-    if (sigtimedwait(&set, nullptr, &nap) < 0) continue;
+    const int sent = sigtimedwait(&set, nullptr, &nap);
+    if (sent < 0 || (run.stop_requested() && sent == SIGHUP)) continue;  // a terminal that closes may say so twice
     if (run.stop_requested()) _exit(130);
     run.request_stop();
     say("\nunseen: stopping; once more kills\n");

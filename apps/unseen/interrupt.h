@@ -7,7 +7,7 @@
 
 namespace unseen::cli {
 
-/// While it lives, the first Ctrl-C (SIGINT or SIGTERM) asks the run to stop, the second one kills the
+/// While it lives, the first Ctrl-C (SIGINT, SIGTERM or SIGHUP) asks the run to stop, the second one (but for SIGHUP) kills the
 /// program with exit code 130. Make it before any other thread is started.
 class Interrupt {
  public:

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "commands.h"
 #include "flags.h"
@@ -28,9 +32,11 @@ std::string command_name(const CLI::App& app) {
   return name;
 }
 
-/// Throws InputError if something printed did not arrive.
+/// Throws InputError if something printed did not arrive, though somebody wants to read it.
 void flush_output() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+  errno = 0;
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (failed && errno != EPIPE)
     throw InputError("standard output", "text", "no room, or nobody to read it", "a place to write to");
 }
 
@@ -63,6 +69,9 @@ int run(const CLI::App& app, const std::vector<Command>& commands) {
     return report(kInterrupted, "interrupted; nothing was written");
   } catch (const std::bad_alloc&) {
     return report(kFault, "not enough memory");
+  } catch (const std::system_error& e) {
+    if (e.code() == std::errc::broken_pipe) return kSolved;  // nobody reads what was printed last
+    return report(kFault, fmt::format("internal fault: {}", e.what()));
   } catch (const std::exception& e) {
     return report(kFault, fmt::format("internal fault: {}", e.what()));
   }
@@ -74,6 +83,8 @@ int run(const CLI::App& app, const std::vector<Command>& commands) {
 int main(int argc, char** argv) {
   using namespace unseen::cli;
   std::signal(SIGPIPE, SIG_IGN);  // what nobody reads must not end a run that writes files
+  for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})  // else a file that is opened would take its place
+    if (fcntl(standard, F_GETFD) < 0) open("/dev/null", O_RDWR);
   CLI::App app("Finds out what a scan or a video does not show.", "unseen");
   app.set_version_flag("--version", fmt::format("unseen {}", unseen::kVersion));
   app.require_subcommand(0, 1);

@@ -27,20 +27,24 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-}  // namespace
-
+/// The subcommand that was asked for, or the program itself.
 const CLI::App& asked_for(const CLI::App& app) {
   const CLI::App* at = &app;
   while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
   return *at;
 }
 
+}  // namespace
+
 std::string unexpected(const CLI::App& app) {
   const CLI::App& command = asked_for(app);
-  const std::vector<std::string> words = app.remaining(true);
+  std::vector<std::string> words = app.remaining(true);
+  std::erase(words, "--");
+  if (words.empty()) return "-- is not known";
   const auto is_flag = [](const std::string& word) { return word.starts_with("-"); };
   const auto flag = std::find_if(words.begin(), words.end(), is_flag);
-  const bool names_command = !command.get_subcommands({}).empty() || flag == words.end();
+  const bool names_command = !command.get_subcommands({}).empty();
+  if (!names_command && flag == words.end()) return words.front() + " is one argument too many";
   std::string word = names_command ? words.front() : *flag;
   if (is_flag(word)) word = word.substr(0, word.find('='));
   std::vector<std::string> known;
@@ -49,7 +53,7 @@ std::string unexpected(const CLI::App& app) {
   for (const CLI::App* sub : command.get_subcommands({})) known.push_back(sub->get_name());
   std::string text = word + " is not known";
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) { return distance(word, a) < distance(word, b); });
-  if (nearest != known.end() && 3 * distance(word, *nearest) <= word.size()) text += fmt::format(" (did you mean {}?)", *nearest);
+  if (nearest != known.end() && *nearest != word && 3 * distance(word, *nearest) <= word.size()) text += fmt::format(" (did you mean {}?)", *nearest);
   return text;
 }
 

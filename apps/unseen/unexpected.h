@@ -7,8 +7,6 @@
 
 namespace unseen::cli {
 
-/// The subcommand that was asked for, or the program itself.
-const CLI::App& asked_for(const CLI::App& app);
 /// What a command line holds that is not known, and what it may have meant: "--scal is not known (did you mean --scale?)"
 std::string unexpected(const CLI::App& app);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "io/text.h"
@@ -104,14 +105,16 @@ class HeaderParser {
   }
 
   void read_counts() {
-    if (entries_.count("POINTS")) header_.points = count_at("POINTS", entry("POINTS", 1)[0]);
-    if (!entries_.count("WIDTH") && entries_.count("POINTS")) return;
+    const bool counted = entries_.count("POINTS") > 0;
+    if (counted) header_.points = count_at("POINTS", entry("POINTS", 1)[0]);
+    if (counted && !entries_.count("WIDTH")) return;
     const std::size_t width = count_at("WIDTH", entry("WIDTH", 1)[0]);
     const std::size_t height = entries_.count("HEIGHT") ? count_at("HEIGHT", entry("HEIGHT", 1)[0]) : 1;
-    if (height > 0 && width > bytes_.size() / height)
+    const std::size_t most = counted ? std::numeric_limits<std::size_t>::max() : bytes_.size();  // compressed points may take less than a byte
+    if (height > 0 && width > most / height)
       fail("WIDTH", std::to_string(width) + " x " + std::to_string(height) + " points",
            "no more than the file can hold");
-    if (!entries_.count("POINTS")) header_.points = width * height;
+    if (!counted) header_.points = width * height;
     if (header_.points < width * height) fail("POINTS", std::to_string(header_.points), std::to_string(width * height) + ", as WIDTH and HEIGHT say");
   }
 

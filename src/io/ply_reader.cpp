@@ -46,6 +46,7 @@ class PlySource final : public PointSource {
     else
       read_records(block, count);
     done_ += count;
+    if (done_ == vertex_->count && vertex_ == &header_.elements.back()) remark_on_rest();
     bytes_->release_before(header_.ascii ? lines_.offset() : at_);
     return true;
   }
@@ -149,6 +150,15 @@ class PlySource final : public PointSource {
     }
   }
 
+  /// A header that counts too few points hides the others.
+  void remark_on_rest() {
+    Lines ahead = lines_;
+    std::string_view line;
+    const bool more = header_.ascii ? ahead.next_filled(line) : bytes_->view().size() - at_ >= vertex_->stride();
+    if (more && !remarked_) info_.notes.push_back("more follows after the " + std::to_string(vertex_->count) + " points that the header promises, and is left out");
+    remarked_ = remarked_ || more;
+  }
+
   double read_value(const char*& p, const char* end, std::size_t c) const {
     double value = 0;
     if (!read_number(p, end, value)) {
@@ -167,6 +177,7 @@ class PlySource final : public PointSource {
   SourceInfo info_;
   std::size_t start_ = 0, start_line_ = 0;  ///< of the vertices
   std::size_t at_ = 0, done_ = 0;
+  bool remarked_ = false;
   Lines lines_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <array>
+#include <cmath>
 
 #include "io/columns.h"
 #include "io/readers.h"
@@ -54,8 +55,8 @@ class PtxSource final : public PointSource {
                      "the " + std::to_string(size_) + " of the scan");
   }
 
-  [[noreturn]] void fail_matrix() const {
-    throw InputError(info_.name, "line " + std::to_string(lines_.number()) + ", matrix", "one that bends or flattens", "rotation, scale and translation, a column of the usual matrix in each line");
+  [[noreturn]] void fail_matrix(const char* found) const {
+    throw InputError(info_.name, "line " + std::to_string(lines_.number()) + ", matrix", found, "rotation, scale and translation, a column of the usual matrix in each line");
   }
 
   /// False at the end of the file, where that is no fault.
@@ -86,12 +87,13 @@ class PtxSource final : public PointSource {
       const Vec3 row(numbers4[0], numbers4[1], numbers4[2]);
       if (!row.allFinite())
         throw InputError(info_.name, "matrix", "a number that is not finite", "finite numbers");
-      if (numbers4[3] != (i < 3 ? 0.0 : 1.0)) fail_matrix();
+      if (numbers4[3] != (i < 3 ? 0.0 : 1.0)) fail_matrix(i < 3 ? "a last number that is not 0" : "a last number that is not 1");
       i < 3 ? void(rotation_.col(i) = row) : void(translation_ = row);
     }
     const Mat3 squared = rotation_.transpose() * rotation_;
     const double scale = squared.trace() / 3.0;  // its square
-    if (!(scale > 0.0) || (squared / scale - Mat3::Identity()).cwiseAbs().maxCoeff() > kRightAngles) fail_matrix();
+    const double skew = (squared / scale - Mat3::Identity()).cwiseAbs().maxCoeff();
+    if (!(scale > 0.0) || !std::isfinite(scale) || !(skew <= kRightAngles)) fail_matrix("axes that are not at right angles and equally long");
     return true;
   }
 

@@ -74,7 +74,7 @@ std::string sha256(const fs::path& path, const Context& context) {
   Digest digest;
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(files.size(), 1));
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (::access(files[i].c_str(), R_OK) != 0) continue;  // was no input either
+    if (::access(files[i].c_str(), R_OK) != 0) continue;  // nor could it be read as input
     digest.add(file_digest(files[i], context, share * static_cast<double>(i), share) + "  " + files[i].filename().string() + "\n");
   }
   return digest.hex();

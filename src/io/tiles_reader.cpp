@@ -38,7 +38,7 @@ bool is_tile(const fs::path& path) {
   }
 }
 
-bool is_drawn(const fs::path& path) { return format_by_name(path) != Format::unknown && !is_tile(path); }
+bool is_mesh_or_picture(const fs::path& path) { return format_by_name(path) != Format::unknown && !is_tile(path); }
 
 /// One file after another; only one is open at a time.
 class TilesSource final : public PointSource {
@@ -51,7 +51,7 @@ class TilesSource final : public PointSource {
     for (const fs::path& path : paths) inspect(path);
     if (tiles_.empty())
       throw InputError(info_.name, "folder",
-                       paths.empty() ? (info_.notes.empty() ? "no point files" : "no point files (" + info_.notes.front() + ")") : "no usable tile (" + info_.notes.back() + ")",
+                       paths.empty() ? (info_.notes.empty() ? "no point files" : "no point files; " + info_.notes.front()) : "no usable tile (" + info_.notes.back() + ")",
                        "point files, or depth frames with camera-intrinsics.txt");
     check_together();
     info_.has_normals = keep_.normals;
@@ -85,12 +85,12 @@ class TilesSource final : public PointSource {
   std::vector<fs::path> find_tiles(const fs::path& folder) {
     const auto results = result_files(folder);
     std::vector<fs::path> paths;
-    std::vector<std::string> drawn;
+    std::vector<std::string> others;
     for (const auto& entry : fs::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
       if (!entry.is_regular_file() || name.front() == '.') continue;
       if (!is_tile(entry.path())) {
-        if (is_drawn(entry.path())) drawn.push_back(name);
+        if (is_mesh_or_picture(entry.path())) others.push_back(name);
         continue;
       }
       if (results.count(name) > 0)
@@ -99,8 +99,8 @@ class TilesSource final : public PointSource {
         paths.push_back(entry.path());
     }
     std::sort(info_.notes.begin(), info_.notes.end());
-    if (!drawn.empty())
-      info_.notes.push_back(fmt::format("{} not read as tiles, as meshes and pictures are not ({}{})", drawn.size(), *std::min_element(drawn.begin(), drawn.end()), drawn.size() > 1 ? ", …" : ""));
+    if (!others.empty())
+      info_.notes.push_back(fmt::format("meshes and pictures are not read as tiles: {}{}", *std::min_element(others.begin(), others.end()), others.size() > 1 ? fmt::format(" and {} more", others.size() - 1) : ""));
     std::sort(paths.begin(), paths.end());
     return paths;
   }

@@ -21,6 +21,7 @@ constexpr double kBent = 0.25;            // of the tolerance: what is bent seve
 constexpr int kMostPieces = 5;           // straight ones, of what is bent several times
 constexpr int kSlices = 12;
 constexpr int kFiner = 4;                // times as many, of what is bent or stepped more often than that
+constexpr int kShift = 3;                // of these, from one window to the next
 constexpr double kSteppedGain = 0.4;     // there, of steps
 
 double squared_error(const Moments& m, const Space& space) {
@@ -167,10 +168,10 @@ Cut sharpest_bend(const std::vector<Moments>& slice, const VoxelGrid& grid, cons
 /// Of a region that is bent or stepped too often for few pieces: the cut that leaves the least share of the error within some kSlices of its finer slices.
 Cut best_within(const std::vector<Moments>& slice, const VoxelGrid& grid, const Space& space) {
   Cut best{0, kSteppedGain};  // the error as a share
-  for (int from = 0; from + kSlices <= static_cast<int>(slice.size()); from += kSlices / kFiner) {
+  for (int from = 0; from + kSlices <= static_cast<int>(slice.size()); from += kShift) {
     const auto window = std::span(slice).subspan(from, kSlices);
     const double error = squared_error(std::accumulate(window.begin(), window.end(), Moments{}, [](const Moments& a, const Moments& b) { return a + b; }), space);
-    if (const Cut cut = best_single(window, grid, space, best.error * error, kShallowGain * error, kSteppedGain * error); cut.at > 0) best = {from + cut.at, cut.error / error};
+    if (const Cut cut = best_single(window, grid, space, best.error * error, kShallowGain * error, best.error * error); cut.at > 0) best = {from + cut.at, cut.error / error};
   }
   return best;
 }

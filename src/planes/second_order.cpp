@@ -77,18 +77,23 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
   if (count < 4) return;
   std::vector<double> offsets;
   for (const int p : by_offset) offsets.push_back(result.planes[p].plane.offset);
-  const double hit = std::min(1.0, 2.0 * tolerance * static_cast<double>(count) / (offsets.back() - offsets.front()));  // chance that a place has a plane
-  const auto by_chance = [&](std::size_t planes) { return 0.5 * static_cast<double>(count * count) * std::pow(hit, static_cast<double>(planes) - 2.0); };
+  const auto by_chance = [&](const std::vector<std::size_t>& row) {
+    const double between = static_cast<double>(row.back() - row.front() + 1) / (offsets[row.back()] - offsets[row.front()]);
+    const double hit = std::min(1.0, 2.0 * tolerance * between);  // that a place has a plane
+    return 0.5 * static_cast<double>(count * count) * std::pow(hit, static_cast<double>(row.size()) - 2.0);
+  };
   std::vector<char> taken(count, 0);
   const auto row_from = [&](std::size_t first, std::size_t second) {
     std::vector<std::size_t> row = {first, second};
     const double step = offsets[second] - offsets[first];
     for (;;) {
       const double next = offsets[row.back()] + step;
-      std::size_t i = std::lower_bound(offsets.begin(), offsets.end(), next - tolerance) - offsets.begin();
-      while (i < count && taken[i]) ++i;
-      if (i == count || offsets[i] > next + tolerance) return row;
-      row.push_back(i);
+      const auto off = [&](std::size_t i) { return i < count && !taken[i] ? std::abs(offsets[i] - next) : std::numeric_limits<double>::infinity(); };
+      std::size_t nearest = count;
+      for (std::size_t i = std::lower_bound(offsets.begin(), offsets.end(), next - tolerance) - offsets.begin(); i < count && offsets[i] < next + tolerance; ++i)
+        if (off(i) < off(nearest)) nearest = i;
+      if (nearest == count) return row;
+      row.push_back(nearest);
     }
   };
   for (;;) {
@@ -97,13 +102,15 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
       for (std::size_t k = i + 1; k < count && !taken[i]; ++k)
         if (!taken[k] && offsets[k] - offsets[i] > 4 * tolerance)
           if (std::vector<std::size_t> row = row_from(i, k); row.size() > best.size()) best = std::move(row);
-    if (best.size() < 4 || by_chance(best.size()) > kByChance) return;
+    if (best.size() < 4 || by_chance(best) > kByChance) return;
     std::vector<int> planes;
     for (const std::size_t i : best) planes.push_back(by_offset[i]), taken[i] = 1;
-    const auto is_known = [&](const Spacing& s) {
-      return std::all_of(planes.begin(), planes.end(), [&](int plane) { return std::find(s.planes.begin(), s.planes.end(), plane) != s.planes.end(); });
+    const auto holds = [](const std::vector<int>& all, const std::vector<int>& some) {
+      return std::all_of(some.begin(), some.end(), [&](int plane) { return std::find(all.begin(), all.end(), plane) != all.end(); });
     };
-    if (std::none_of(result.spacing.begin(), result.spacing.end(), is_known)) result.spacing.push_back(spacing_of(planes, result));
+    if (std::any_of(result.spacing.begin(), result.spacing.end(), [&](const Spacing& s) { return holds(s.planes, planes); })) continue;
+    std::erase_if(result.spacing, [&](const Spacing& s) { return holds(planes, s.planes); });
+    result.spacing.push_back(spacing_of(planes, result));
   }
 }
 

@@ -3,6 +3,7 @@
 """unseen convert, synth planes and evaluate planes."""
 
 import json
+import os
 import unittest
 
 import numpy
@@ -48,8 +49,12 @@ class Convert(CliTest):
         (self.folder / "tiles/a.xyz").write_text("1 2 3\n4 5 6\n")
         before = contents(self.folder)
         self.assert_one_line(self.unseen("convert", "room.ply", "room.ply"), 2, "room.ply", "the same file as IN")
+        os.link(self.folder / "room.ply", self.folder / "twin.ply")
+        self.assert_one_line(self.unseen("convert", "twin.ply", "room.ply"), 2, "room.ply", "the same file as IN")
+        os.remove(self.folder / "twin.ply")
         self.assert_one_line(self.unseen("convert", "link.ply", "room.ply"), 2, "room.ply", "the same file as IN")
-        self.assert_one_line(self.unseen("convert", "tiles", "tiles/a.xyz"), 2, "tiles/a.xyz", "a file of the folder IN")
+        self.assert_one_line(self.unseen("convert", "tiles", "tiles/a.xyz"), 2, "tiles/a.xyz", "lies in the folder IN")
+        self.assert_one_line(self.unseen("convert", "tiles", "tiles/all.xyz"), 2, "tiles/all.xyz", "lies in the folder IN")
         self.assertEqual(contents(self.folder), before)
 
     def test_no_points_are_no_cloud(self):

@@ -44,7 +44,9 @@ class SynthInteractions(CliTest):
 
     def test_an_interrupt_ends_it(self):
         run = subprocess.Popen([PROGRAM, "synth", "interactions", "-o", "out", "--seconds", "600", "--fps", "60"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
-        time.sleep(1.5)  # of about ten
+        end = time.monotonic() + 30
+        while not list(self.folder.iterdir()) and time.monotonic() < end:  # what it writes into, made when it listens
+            time.sleep(0.02)
         run.send_signal(signal.SIGINT)
         said = run.communicate(timeout=30)[1]
         self.assertEqual(run.returncode, 130, said)

@@ -3,6 +3,7 @@
 """Help, versions, wrong command lines and config files."""
 
 import json
+import os
 import subprocess
 import unittest
 
@@ -41,7 +42,9 @@ class WrongCommandLines(CliTest):
         for arguments, word in ((["planes", "room.ply", "-o", "out", "--scales", "1"], "--scales"),
                                 (["planes", "room.ply"], "-o OUT"),
                                 (["planes", "-o", "out"], "CLOUD"),
-                                (["planes", "room.ply", "more.ply", "-o", "out"], "more.ply"),
+                                (["planes", "room.ply", "more.ply", "-o", "out"], "more.ply is one argument too many"),
+                                (["planes", "--", "room.ply", "more.ply"], "more.ply is one argument too many"),
+                                (["synth", "--", "planes"], "planes is not known;"),
                                 (["planes", "room.ply", "-o", "out", "--threads", "-1"], "--threads"),
                                 (["sing"], "sing"),
                                 (["evaluate", "planes", "out"], "--truth"),
@@ -66,6 +69,14 @@ class WrongCommandLines(CliTest):
                     run = subprocess.run(f"'{PROGRAM}' {arguments} {stderr}", shell=True, cwd=self.folder, timeout=60)
                     self.assertEqual(run.returncode, code)
         self.assertTrue((self.folder / "room.ply").exists())
+        for arguments, code in ((["convert", "room.csv", "again.ply"], 0), (["convert", "none.csv", "none.ply"], 3), (["--help"], 0)):
+            with self.subTest(arguments=arguments):
+                reading, writing = os.pipe()
+                os.close(reading)
+                run = subprocess.run([PROGRAM, *arguments], cwd=self.folder, stdout=writing, stderr=writing, timeout=60)
+                os.close(writing)
+                self.assertEqual(run.returncode, code)
+        self.assertEqual((self.folder / "room.ply").read_bytes(), (self.folder / "again.ply").read_bytes())
 
     def test_option_values_are_checked(self):
         self.room_file()

@@ -89,9 +89,11 @@ TEST(Ptx, FaultsNameFileAndField) {
   bad("2\n2\n", "100000\n100000\n", {"columns and rows", "100000 x 100000"});
   bad("1 0 0\n", "1 0\n", {"line 4", "scanner"});
   bad("10 20 30 1", "10 nan 30 1", {"matrix"});
-  bad("0 0 1 0\n10", "0 0 0 0\n10", {"matrix", "flattens"});
-  bad("0 0 1 0\n10", "0 0.5 1 0\n10", {"matrix", "bends"});
-  bad("0 0 1 0\n10", "0 0 1 0.5\n10", {"matrix", "bends"});
+  bad("0 0 1 0\n10", "0 0 0 0\n10", {"matrix", "right angles"});
+  bad("0 0 1 0\n10", "0 0.5 1 0\n10", {"matrix", "right angles"});
+  bad("0 0 1 0\n10", "0 0 1 0.5\n10", {"matrix", "not 0"});
+  bad("0 0 1 0\n10", "0 0 1e200 0\n10", {"matrix", "right angles"});
+  bad("10 20 30 1", "10 20 30 2", {"matrix", "not 1"});
   bad("1 0 0 0.5", "1 q 0 0.5", {"line 11", "point"});
   expect_read_error(ptx().substr(0, ptx().size() - 30), "bad.ptx", {"points", "the 4 of the scan"});
 }

@@ -60,6 +60,19 @@ TEST(Pcd, FaultsNameFileAndField) {
   expect_read_error("VERSION 0.7\n", "bad.pcd", {"DATA"});
 }
 
+TEST(Pcd, CompressedPointsMayTakeLessThanAByte) {  // an organised cloud of which little was seen
+  const std::string head = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 100\nHEIGHT 10\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1000\nDATA binary_compressed\n";
+  std::string zeros(2, '\0');  // one as it is, then copies of it: 12000 in all
+  for (int i = 0; i < 45; ++i) zeros += std::string("\xe0\xff\0", 3);
+  zeros += std::string("\xe0\x6e\0", 3);
+  std::string s = head;
+  put<std::uint32_t>(s, static_cast<std::uint32_t>(zeros.size()));
+  put<std::uint32_t>(s, 12000);
+  s += zeros;
+  ASSERT_LT(s.size(), 1000u);
+  EXPECT_EQ(read(s, "a.pcd").size(), 1000u);
+}
+
 TEST(Lzf, CopiesAndLiteralsAndNothingOutOfBounds) {
   std::string result;
   EXPECT_TRUE(lzf_decompress(std::string("\2abc\x80\2", 6), 9, result));

@@ -99,6 +99,24 @@ TEST(Ply, ManyBlocksAndRewindGiveTheSamePoints) {
   expect_same(read_all(*source), whole);
 }
 
+TEST(Ply, SaysWhereMoreFollowsThanTheHeaderPromises) {
+  const auto notes = [](const std::string& s) {
+    const auto source = open_points_in_memory(s, "a.ply");
+    read_all(*source);
+    read_all(*source);
+    return source->info().notes.size();
+  };
+  const std::string text = kHead + "element vertex 2\n" + kXyz + "1 2 3\n4 5 6\n";
+  EXPECT_EQ(notes(text), 0u);
+  EXPECT_EQ(notes(text + "\n\n"), 0u);
+  EXPECT_EQ(notes(text + "7 8 9\n"), 1u);
+  std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 2\n" + kXyz;
+  for (int i = 0; i < 6; ++i) put<float>(binary, static_cast<float>(i));
+  EXPECT_EQ(notes(binary + "\n"), 0u);
+  for (int i = 0; i < 3; ++i) put<float>(binary, 0.0f);
+  EXPECT_EQ(notes(binary), 1u);
+}
+
 TEST(Ply, FaultsNameFileAndField) {
   const auto bad = [](const std::string& s, const std::vector<std::string>& parts) {
     expect_read_error(s, "bad.ply", parts);

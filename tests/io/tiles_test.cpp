@@ -60,12 +60,15 @@ TEST(Tiles, MeshesPicturesAndHiddenFilesAreNone) {
   const auto source = open_points(folder.path);
   EXPECT_EQ(read_all(*source).size(), 1u);
   ASSERT_FALSE(source->info().notes.empty());
-  EXPECT_NE(source->info().notes[0].find("2 not read as tiles, as meshes and pictures are not (c.obj, …)"), std::string::npos);
+  EXPECT_NE(source->info().notes[0].find("meshes and pictures are not read as tiles: c.obj and 1 more"), std::string::npos);
 }
 
 TEST(Tiles, NothingUsableIsAnError) {
   const ScratchFolder folder;
   expect_error([&] { open_points(folder.path); }, {folder.path.string(), "no point files"});
+  write_file(folder / ".a.xyz", "1 2 3\n");
+  write_file(folder / "b.png", png8({"#"}));
+  expect_error([&] { open_points(folder.path); }, {folder.path.string(), "no point files; meshes and pictures are not read as tiles: b.png"});
   write_file(folder / "a.ply", "ply\n");
   expect_error([&] { open_points(folder.path); }, {folder.path.string(), "a.ply", "end_header"});
   expect_error([&] { open_points(folder / "absent.ply"); }, {"absent.ply", "No such file"});

@@ -11,9 +11,9 @@
 namespace unseen::io {
 
 /// SHA-256 in lower-case hexadecimal of a file; of a folder, that of the lines "HASH  NAME" of its files in
-/// the order of their names, which is what `LC_ALL=C sha256sum * | sha256sum` gives there (hidden files and
-/// folders in it do not count). Reports progress and can be cancelled. Throws InputError if something cannot
-/// be read.
+/// the order of their names, which is what `LC_ALL=C sha256sum * | sha256sum` gives there (hidden files, folders
+/// and files without the permission to read them do not count). Reports progress and can be cancelled. Throws InputError if something else
+/// cannot be read.
 std::string sha256(const std::filesystem::path& path, const Context& context);
 
 /// The same of bytes.

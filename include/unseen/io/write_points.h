@@ -14,7 +14,7 @@ namespace unseen::io {
 /// colour), csv (with a header line; all of them) or las (1.2, point format 0: positions only, without
 /// non-finite ones; the finest decimal scale that covers the extent). The file appears complete or not at
 /// all. What a format cannot hold is a warning of the context. Throws InputError (path, reason) before
-/// reading if the ending is unknown or the place cannot be written to.
+/// reading if the ending is unknown or the place cannot be written to, and if there are no points.
 void write_points(const std::filesystem::path& path, PointSource& source, Context& context);
 
 }  // namespace unseen::io
