@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kIntrinsics = "camera-intrinsics.txt";
+constexpr double kMostSkew = 1e-3;  // of the focal length: less moves no point by a pixel
 constexpr std::string_view kStart = "frame-", kDepth = ".depth.png";
 
 /// `count` numbers, or `other`, wherever the lines break.
@@ -74,6 +75,10 @@ Camera read_intrinsics_text(const fs::path& path) {
     throw InputError(path.string(), "focal lengths",
                      std::to_string(camera.fx) + ", " + std::to_string(camera.fy),
                      "positive numbers of pixels");
+  if (!(std::abs(k[1]) <= kMostSkew * camera.fx))
+    throw InputError(path.string(), "skew", std::to_string(k[1]), "0, as of pixels with right angles");
+  if (k[row] != 0.0 || k[2 * row] != 0.0 || k[2 * row + 1] != 0.0 || k[2 * row + 2] != 1.0)
+    throw InputError(path.string(), "matrix", "numbers below its diagonal, or a last one that is not 1", "rows fx 0 cx, 0 fy cy, 0 0 1");
   return camera;
 }
 

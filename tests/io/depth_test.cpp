@@ -93,6 +93,10 @@ TEST(Depth, NothingUsableIsAnError) {
   expect_error([&] { open_points(folder.path); }, {"camera-intrinsics.txt", "3 numbers"});
   write_file(folder / "camera-intrinsics.txt", "0 0 1\n0 2 0.5\n0 0 1\n");
   expect_error([&] { open_points(folder.path); }, {"camera-intrinsics.txt", "focal"});
+  write_file(folder / "camera-intrinsics.txt", "100 5 40\n0 100 30\n0 0 1\n");
+  expect_error([&] { open_points(folder.path); }, {"camera-intrinsics.txt", "skew", "5.0"});
+  write_file(folder / "camera-intrinsics.txt", "100 0 0\n0 100 0\n40 30 1\n");
+  expect_error([&] { open_points(folder.path); }, {"camera-intrinsics.txt", "matrix", "below its diagonal"});
   write_file(folder / "camera-intrinsics.txt", kIntrinsics);
   expect_error([&] { open_points(folder.path); }, {"frames", "frame-*.depth.png"});
   write_frame(folder, "frame-1", kPose, "no image");
