@@ -47,6 +47,8 @@ void check_page(const std::filesystem::path& page) {
 }
 
 int run(ViewArguments& args) {
+  OptionTable table;
+  if (resolve_or_dump(table, args.common, "view", {})) return kSolved;
   require(args.first, "OUT");
   if (!args.page.empty()) check_page(args.page);
   Session session(args.common);

@@ -118,6 +118,13 @@ class Config(CliTest):
         options = self.options("--config", "my.toml", "--scale", "0.15")
         self.assertEqual((options["scale"], options["angles"], options["solver"]), (0.15, [60, 90], "exact"))
 
+    def test_dump_config_needs_nothing_else(self):
+        for command in (*COMMANDS, ["cuboids"], ["collision"], ["interactions"], ["stage"], ["view"], ["evaluate", "cuboids"], ["synth", "collision"]):
+            with self.subTest(command=command):
+                run = self.unseen(*command, "--dump-config")
+                self.assertEqual((run.returncode, run.stderr), (0, ""))
+                self.assertIn("[", run.stdout)
+
     def test_dump_config_round_trip(self):
         given = ("--scale", "0.061", "--angles", "45,60", "--adaptive-scale", "--viewpoint", "-1,2.5,3", "--seed", "9")
         first = self.unseen("planes", "--dump-config", *given)
