@@ -88,10 +88,10 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
     const double step = offsets[second] - offsets[first];
     for (;;) {
       const double next = offsets[row.back()] + step;
-      const auto off = [&](std::size_t i) { return i < count && !taken[i] ? std::abs(offsets[i] - next) : std::numeric_limits<double>::infinity(); };
+      double least = tolerance;
       std::size_t nearest = count;
       for (std::size_t i = std::lower_bound(offsets.begin(), offsets.end(), next - tolerance) - offsets.begin(); i < count && offsets[i] < next + tolerance; ++i)
-        if (off(i) < off(nearest)) nearest = i;
+        if (const double off = std::abs(offsets[i] - next); !taken[i] && off < least) least = off, nearest = i;
       if (nearest == count) return row;
       row.push_back(nearest);
     }
