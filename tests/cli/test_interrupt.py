@@ -96,7 +96,7 @@ class Interrupt(CliTest):
                 self.follow(run, terminal, until=r"\[[= ]*\]")
                 run.send_signal(sent)
                 if sent == signal.SIGHUP:  # a terminal that closes may say so twice
-                    time.sleep(0.1)
+                    time.sleep(0.005)
                     run.send_signal(sent)
                 text = self.follow(run, terminal)
                 self.assertEqual(run.returncode, 130, text)
