@@ -73,6 +73,29 @@ double wedge_variance(const VoxelGrid& grid, const Patch& patch, const std::vect
   return std::pow(more / (high.place / high.count - low.place / low.count), 2);
 }
 
+/// Variance (rad²) of a tilt along `axis` that the surface's own normals show to be none: a wall that steps back as it rises has points that
+/// lean, and most of its normals, of the finest neighbourhoods, are turned from their plane to the same side.
+double relief_variance(const Cells& surface, const Patch& patch, const std::vector<int>& core, const Vec3& axis, double spread, double variance) {
+  constexpr std::size_t kFewest = 30;           // normals
+  constexpr double kShared = 12;                // voxels that a normal is estimated from, about: neighbours have much the same
+  constexpr double kClearly = 3;                // standard errors
+  constexpr double kRims = 0.1 * kPi / 180.0;   // rad, of the standard error: what is beyond a rim turns normals
+  constexpr double kSteepest = 0.5;             // cosine: what is turned farther is none of the surface
+  constexpr double kLevels = 3;                 // more steps than between so many do lean: over n of one height, n² − 1 times as much variance is of the lean as of the steps
+  std::vector<double> tilts;
+  for (const int i : core) {
+    const double across = surface.normal[i].dot(patch.fit.normal);
+    if (surface.variation[i] < 1.0 && std::abs(across) > kSteepest) tilts.push_back(surface.normal[i].dot(axis) / across);
+  }
+  if (tilts.size() < kFewest) return 0.0;
+  const double count = static_cast<double>(tilts.size()), tilt = median(tilts);
+  for (double& t : tilts) t = std::abs(t - tilt);
+  const double scatter = 1.48 * median(std::move(tilts)), error = 1.25 * scatter * std::sqrt(kShared / count);  // of a median
+  const bool clear = tilt * tilt > kClearly * kClearly * (variance + error * error + kRims * kRims);
+  const bool few_steps = std::abs(tilt) * spread < kLevels * patch.fit.rms;
+  return clear && few_steps && std::abs(tilt) > scatter ? tilt * tilt : 0.0;
+}
+
 /// Half the median rms of regions.
 double half_typical_noise(const VoxelGrid& grid, const Space& space, const CellSets& regions) {
   if (regions.empty()) return 0.0;
@@ -152,7 +175,7 @@ double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, 
   return std::max(variance, fit.rms * fit.rms / (independent * width * width));
 }
 
-Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise) {
+Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise, const Cells& surface) {
   Patch patch;
   patch.cells = std::move(cells);
   const std::vector<int> core = core_of(grid, space, patch.cells);
@@ -162,6 +185,10 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
   patch.variance_u = tilt_variance(grid, patch, core, fit.u, fit.spread_u, least_noise);
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, core, fit.v, fit.spread_v, least_noise);
+  if (!surface.normal.empty() && !space.is_2d()) {
+    patch.variance_u += relief_variance(surface, patch, core, fit.u, fit.spread_u, patch.variance_u);
+    patch.variance_v += relief_variance(surface, patch, core, fit.v, fit.spread_v, patch.variance_v);
+  }
   const auto systematic = [&](double width) {
     const double clutter = std::min(kToleranceShare * grid.tolerance, kNoiseShare * std::max(fit.rms, 2.0 * least_noise));
     const double tilt = kSystematicTilt * kSystematicTilt + std::pow(clutter / width, 2);
@@ -192,7 +219,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   result.patches.resize(regions.size());
   parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)
-      result.patches[r] = make_patch(grid, space, std::move(regions[r]), result.least_noise);
+      result.patches[r] = make_patch(grid, space, std::move(regions[r]), result.least_noise, cells);
   });
   std::stable_sort(result.patches.begin(), result.patches.end(),
                    [](const Patch& a, const Patch& b) { return a.area > b.area; });

@@ -40,7 +40,7 @@ std::vector<int> core_of(const VoxelGrid& grid, const Space& space, const std::v
 
 /// Moments, fit, area and standard errors of a set of voxels. Points along one sweep of a scanner lie exactly in
 /// the sweep's own plane, however noisy they are: no fit counts as better than `least_noise` (m) allows.
-Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise);
+Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cells, double least_noise, const Cells& surface = {});
 
 /// The variance (rad²) of a fit's tilt along one of its axes with at least as much as independent points leave, `spread` (m) along it.
 double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, double spread);

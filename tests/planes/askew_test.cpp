@@ -76,6 +76,44 @@ TEST(Askew, RoofsOfAnAerialScanKeepTheirPitch) {
   EXPECT_LT(errors_of(roofs, r).back(), 0.5);
 }
 
+/// A house of 20 by 8 by 10 m whose front leans by `lean` (deg), or has a plinth, two storeys of which the upper one steps back, and deep windows.
+Boxes house_with_a_front(bool stepped, double lean) {
+  const double spacing = 0.12, noise = 0.01, length = 20;
+  Boxes house;
+  Random random(1);
+  const auto add = [&](double x, double y, double z, double width, double height) {
+    test::add_rectangle(house.cloud, {x, y, z}, {0, width, 0}, {height * std::tan(radians(lean)), 0, height}, spacing, noise, random);
+  };
+  if (stepped) {
+    add(-0.15, 0, 0, length, 1);
+    add(0, 0, 1, length, 4);
+    add(0.2, 0, 5, length, 1);
+    for (double y = 0; y < length; y += 4) {
+      add(0.17, y, 6, 1.2, 4);
+      add(0.17, y + 1.2, 6, 2.8, 0.5);
+      add(0.45, y + 1.2, 6.5, 2.8, 2.7);
+      add(0.17, y + 1.2, 9.2, 2.8, 0.8);
+    }
+  } else {
+    add(0, 0, 0, length, 10);
+  }
+  house.first = {0, house.cloud.size()};
+  house.normal = {Vec3(1, 0, -std::tan(radians(lean))).normalized()};
+  for (const double y : {0.0, length}) test::add_rectangle(house.cloud, {0.5, y, 0}, {8, 0, 0}, {0, 0, 10}, spacing, noise, random);
+  for (const double z : {0.0, 10.0}) test::add_rectangle(house.cloud, {0.5, 0, z}, {8, 0, 0}, {0, length, 0}, spacing, noise, random);
+  return house;
+}
+
+// A front that steps back as it rises is upright at a scale that its steps are below, and one that leans does lean.
+TEST(Askew, AFrontThatStepsBackIsUpright) {
+  Options options;
+  options.scale = 0.3;
+  for (const auto& [stepped, lean] : {std::pair(true, 0.0), {false, 1.5}, {false, 2.5}}) {
+    const Boxes house = house_with_a_front(stepped, lean);
+    EXPECT_LT(errors_of(house, test::run(house.cloud, options)).back(), 0.1) << (stepped ? "stepped, " : "flat, ") << lean;
+  }
+}
+
 /// So many facades of 12 m, each turned by `turn` (deg) against the one before, in turn to either side, and the ground before them.
 Boxes facades_along_a_zigzag(int count, double turn) {
   Boxes facades;

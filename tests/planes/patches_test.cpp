@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "planes/frames.h"
 #include "planes/scenes.h"
 
 namespace unseen::planes {
@@ -283,6 +284,37 @@ TEST(MakePatch, WhatHangsOverAPlaneDoesNotTurnIt) {
   const Patch patch = make_patch(grid, {}, all, 0.0);
   EXPECT_LT(degrees(line_angle(patch.fit.normal, Vec3::UnitZ())), 0.3);
   EXPECT_EQ(patch.cells.size(), grid.size());
+}
+
+/// A wall of 10 m with so many levels of equal height, each `step` (m) behind the one below, and one plane for all of it.
+Patch patch_of_levels(int levels, double step, bool with_normals) {
+  PointCloud cloud;
+  Random random(2);
+  for (int i = 0; i < levels; ++i) test::add_rectangle(cloud, {step * i, 0, 10.0 * i / levels}, {0, 10, 0}, {0, 0, 10.0 / levels}, 0.1, 0.01, random);
+  VoxelGrid grid = test::grid_of(cloud, 0.15);
+  grid.tolerance = 0.3;
+  Context context;
+  const Cells cells = estimate_normals(grid, {}, context);
+  std::vector<int> all(grid.size());
+  std::iota(all.begin(), all.end(), 0);
+  return make_patch(grid, {}, all, 0.0, with_normals ? cells : Cells());
+}
+
+// Points of a wall that steps back as it rises lean, and its surface does not.
+TEST(MakePatch, StepsInASurfaceAreNoLean) {
+  constexpr double kSignificant = 9.0;  // χ²
+  for (const int levels : {2, 3}) {
+    const double step = 0.45 / levels;
+    const Patch naive = patch_of_levels(levels, step, false), patch = patch_of_levels(levels, step, true);
+    EXPECT_GT(degrees(line_angle(patch.fit.normal, Vec3::UnitX())), 1.5);
+    EXPECT_GT(tilt_chi2(naive, Vec3::UnitX()), kSignificant) << levels;
+    EXPECT_LT(tilt_chi2(patch, Vec3::UnitX()), kSignificant) << levels;
+    EXPECT_LT(noise_chi2(patch, Vec3::UnitX()), kCertain) << levels;
+  }
+  const Patch many = patch_of_levels(6, 0.1, true), flat = patch_of_levels(1, 0.0, true);
+  EXPECT_GT(tilt_chi2(many, Vec3::UnitX()), kSignificant);  // what has so many steps does lean
+  EXPECT_DOUBLE_EQ(flat.doubt_u, patch_of_levels(1, 0.0, false).doubt_u);
+  EXPECT_DOUBLE_EQ(flat.doubt_v, patch_of_levels(1, 0.0, false).doubt_v);
 }
 
 TEST(Patches, ASweepThatIsFlatByNatureIsNotTrusted) {
