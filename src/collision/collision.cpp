@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "collision/common_error.h"
 #include "collision/describe.h"
@@ -17,6 +18,7 @@
 #include "collision/solve_turning.h"
 #include "collision/terms.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -35,6 +37,18 @@ void warn_of_far_orientations(const Shot& shot, const Tracks& tracks, Context& c
     if (last >= first && (hint.time < first - beyond || hint.time > last + beyond))
       context.warn(fmt::format("{}: orientations[{}]: {} was not seen at {:.4g} s: left out", shot.name, k, shot.bodies[hint.body].name, hint.time));
   }
+}
+
+/// Flights are followed over a few frames that lack a sighting.
+void warn_of_far_sightings(const Shot& shot, const std::vector<Sighting>& sightings, double fps, Context& context) {
+  constexpr double kFar = 2.5;
+  std::set<int> frames;
+  for (const Sighting& s : sightings) frames.insert(s.frame);
+  std::vector<double> steps;
+  for (auto it = frames.begin(); it != frames.end() && std::next(it) != frames.end(); ++it) steps.push_back(*std::next(it) - *it);
+  if (const double step = median(std::move(steps)); step > kFar)
+    context.warn(fmt::format("{}: sightings are {:.0f} frames apart at {:.4g} frames a second, and flights are followed from frame to frame: count \"frame\" by the sightings, with \"fps\" about {:.4g}",
+                             shot.name, step, fps, fps / step));
 }
 
 /// What is given and tells nothing.
@@ -91,6 +105,7 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
     evidence.camera = complete_camera(shot, 0, 0);
     std::vector<Sighting> sightings = shot.observations;
     if (shot.frames) std::erase_if(sightings, [&](const Sighting& s) { return s.frame < (*shot.frames)[0] || s.frame > (*shot.frames)[1]; });
+    warn_of_far_sightings(shot, sightings, evidence.fps, context);
     evidence.tracks = find_tracks(shot, evidence.camera, sightings, evidence.fps, context);
     return evidence;
   }
@@ -151,7 +166,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   }
   result.bodies.clear();
   describe(shot, tracks, evidence.fps, impacts, result);
-  remark_on(shot, tracks, impacts, result, context);
+  remark_on(shot, options, tracks, impacts, result, context);
   if (!result.restitution) summary.status = Status::infeasible;
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "collision/alternative.h"
 #include "collision/restitution.h"
 #include "collision/shot_problem.h"
 #include "unseen/core/error.h"
@@ -57,27 +58,41 @@ std::optional<Drag> likely_drag(const std::vector<SolvedImpact>& impacts, double
   return shared_out(impacts.front(), best);
 }
 
-void widen(Estimate& estimate, double value) {
-  const double half = 1.96 * estimate.sd;
-  estimate.low = std::clamp(std::min(estimate.low, value - half), 0.0, 1.0);
-  estimate.high = std::clamp(std::max(estimate.high, value + half), 0.0, 1.0);
-  estimate.sd = std::hypot(estimate.sd, value - estimate.value);
+/// Says what the air may do to the restitution of bodies whose masses nobody gave, if they may be light and it is more than the interval tells.
+void warn_of_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impacts, double none, const Reconstruction& result, Context& context) {
+  if (!result.restitution) return;
+  for (const double density : {80.0, 160.0, 320.0}) {  // kg/m³: of a basketball or a table-tennis ball, and up to a tennis ball's
+    Shot light = shot;
+    for (std::size_t o = 0; o < light.bodies.size(); ++o)
+      if (!light.bodies[o].mass) light.bodies[o].mass = density * impacts.front().solution.problem.solids[o].mass.volume;
+    const std::optional<Drag> drag = known_drag(light, impacts.front());
+    if (!drag) return;
+    const std::vector<SolvedImpact> solved = with_drag(impacts, *drag);
+    if (!(2.0 * (none - cost_of(solved)) > -kSaved)) continue;  // not so light
+    const double c = pooled(restitutions_of(solved)).value;
+    if (c < result.restitution->low || c > result.restitution->high)
+      context.warn(fmt::format("drag of the air is left out, as no mass is given: with a density of {:.0f} kg/m³ c would be {:.3f}; give \"mass\" in kg", density, c));
+    return;
+  }
 }
 
-/// Adds the solution with drag, whose χ² is lower by `saved`.
-void add_alternative(std::vector<SolvedImpact> solved, double saved, Reconstruction& result) {
-  std::vector<Estimate> each;
-  for (std::size_t k = 0; k < solved.size(); ++k) {
-    add_covariance(solved[k].solution.problem, solved[k].solution.fit);
-    each.push_back(restitution_of(solved[k].solution.problem, solved[k].solution.fit));
-  }
-  constexpr double kSlack = 0.05;
-  const double pool = pooled(each).value, c = std::clamp(pool, 0.0, 1.0);
-  if (!(std::abs(pool - c) < kSlack)) return;  // no body bounces so
-  for (std::size_t k = 0; k < solved.size(); ++k) widen(result.impacts[k].restitution, each[k].value);
-  if (result.restitution) widen(*result.restitution, c);
-  const double mass_ratio = solved.front().solution.problem.fixed ? 0.0 : solved.front().solution.fit.state.mass_ratio;
-  result.ambiguous.push_back({fmt::format("with drag of the air: c = {:.2f}", c), c, mass_ratio, -saved});
+/// Adds what the doubt of a fitted drag leaves in the restitutions.
+void add_doubt_of_drag(const std::vector<SolvedImpact>& impacts, Reconstruction& result) {
+  constexpr double kLeastStep = 0.005, kStep = 0.2;  // 1/m; of the drag
+  const double drag = impacts.front().solution.problem.drag[0], low = std::max(0.0, drag - kStep * drag - kLeastStep), high = drag + kStep * drag + kLeastStep;
+  const std::vector<SolvedImpact> less = with_drag(impacts, shared_out(impacts.front(), low)), more = with_drag(impacts, shared_out(impacts.front(), high));
+  const double now = cost_of(impacts), bend = 2.0 * ((cost_of(more) - now) / (high - drag) - (now - cost_of(less)) / (drag - low)) / (high - low);
+  const double sd = bend > 0.0 ? 1.0 / std::sqrt(bend) : kMostDrag;  // the cost is ½ χ²
+  const std::vector<Estimate> with_less = restitutions_of(less), with_more = restitutions_of(more);
+  const auto add = [&](Estimate& estimate, double from, double to) {
+    if (!(estimate.sd > 0.0)) return;
+    const double factor = std::hypot(1.0, sd * (to - from) / (high - low) / estimate.sd);
+    estimate.low = std::max(0.0, estimate.value - factor * (estimate.value - estimate.low));
+    estimate.high = std::min(1.0, estimate.value + factor * (estimate.high - estimate.value));
+    estimate.sd *= factor;
+  };
+  for (std::size_t k = 0; k < impacts.size(); ++k) add(result.impacts[k].restitution, with_less[k].value, with_more[k].value);
+  if (result.restitution) add(*result.restitution, pooled(with_less).value, pooled(with_more).value);
 }
 
 }  // namespace
@@ -115,20 +130,26 @@ Drag best_drag(const std::vector<SolvedImpact>& impacts) {
   return shared_out(impacts.front(), 0.5 * (low + high));
 }
 
-void look_for_drag(const Shot& shot, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
+void look_for_drag(const Shot& shot, const Options& options, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   const Problem& problem = impacts.front().solution.problem;
-  if (problem.drag[0] > 0.0 || problem.drag[1] > 0.0 || problem.planar) return;
+  if (problem.planar) return;
+  if (options.drag == "estimate") add_doubt_of_drag(impacts, result);
+  if (options.drag != "off") return;
   const double none = cost_of(with_drag(impacts, {0.0, 0.0}));
   const std::optional<Drag> known = known_drag(shot, impacts.front()), drag = known ? known : likely_drag(impacts, none);
-  if (!drag) return;
-  std::vector<SolvedImpact> solved = with_drag(impacts, *drag);
-  const double saved = 2.0 * (none - cost_of(solved));
-  if (!(saved > (known ? kSaved : kSavedFreely)) || std::isinf(saved)) return;
+  std::vector<SolvedImpact> solved = drag ? with_drag(impacts, *drag) : std::vector<SolvedImpact>();
+  const double saved = drag ? 2.0 * (none - cost_of(solved)) : 0.0;
+  if (std::isinf(saved)) return;
+  if (!(saved > (known ? kSaved : kSavedFreely))) {
+    if (known && saved > -kSaved) add_alternative("with drag of the air", solved, saved, result);  // the flights cannot tell
+    if (!known) warn_of_light_bodies(shot, impacts, none, result, context);
+    return;
+  }
   const std::string who = problem.fixed ? shot.bodies[0].name : fmt::format("{} and {}", shot.bodies[0].name, shot.bodies[1].name);
   context.warn(fmt::format("{}: the air slows {} down: with drag the flights fit better (χ² falls by {:.0f}); {}", who, problem.fixed ? "it" : "them", saved,
                            known ? "use --drag on" : fmt::format("give the mass and use --drag on, or use --drag estimate (about {:.2f} 1/m)", (*drag)[0])));
   if (known && saved > kRefuted) result.fits = false;
-  add_alternative(std::move(solved), saved, result);
+  add_alternative("with drag of the air", solved, saved, result);
 }
 
 }  // namespace unseen::collision

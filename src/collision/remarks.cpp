@@ -2,13 +2,17 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/remarks.h"
 
+#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "collision/alternative.h"
 #include "collision/drag.h"
 #include "collision/scale_doubt.h"
+#include "collision/shot_problem.h"
+#include "collision/vertical.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
@@ -29,13 +33,59 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
   }
 }
 
-/// What the shot says of down is held on to, but flights may say otherwise.
-void compare_down(const Shot& shot, const SolvedImpact& impact, Context& context) {
-  constexpr double kWrong = 0.05;  // rad
+/// What the shot says of down is held on to, but flights by themselves may say otherwise.
+void compare_down(const Shot& shot, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
+  constexpr double kWrong = 0.05;         // rad
+  constexpr double kSignificant = 16.0;   // χ²
   if (!shot.down || shot.gravity == 0.0) return;
-  const Vec3 &given = *shot.down, &found = impact.solution.fit.state.down;
+  Vertical seen;
+  for (SolvedImpact impact : impacts) {
+    add_covariance(impact.solution.problem, impact.solution.fit);
+    seen.add(seen_vertical(impact.solution.problem, impact.solution.fit), 1.0 / static_cast<double>(impacts.size()));
+  }
+  const Vec3 given = shot.down->normalized(), found = likeliest(seen, impacts.front().solution.fit.state.down).first;
+  const auto unlikely = [&](const Vec3& down) { return down.dot(seen.precision * down) - 2.0 * seen.sum.dot(down); };
   const double off = std::atan2(given.cross(found).norm(), given.dot(found));
-  if (off > kWrong) context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(off)));
+  const double contradicted = unlikely(given) - unlikely(found);
+  if (!(off > kWrong && contradicted > kSignificant)) return;
+  context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(off)));
+  std::vector<SolvedImpact> freed = impacts;
+  for (SolvedImpact& impact : freed) {
+    impact.solution.problem.down = found;
+    impact.solution.problem.down_sigma = kDownSigma;
+    impact.solution.fit = settle(impact.solution.problem, impact.solution.fit.state);
+    if (!impact.solution.fit.usable) return;
+  }
+  add_alternative("with gravity as the flights have it", freed, contradicted, result);
+}
+
+/// Without gravity all is taken to move in a plane parallel to the image, and then each body looks as large everywhere.
+void check_parallel(const Shot& shot, const Camera& camera, const Tracks& tracks, Context& context) {
+  const double slanting = shot.video.empty() ? 0.01 : 0.08;  // of the size, over the part of the picture that was seen: blur and shadows change that of regions
+  constexpr double kSignificant = 4.0;    // standard errors
+  constexpr std::size_t kFewest = 12;
+  if (shot.gravity != 0.0) return;
+  std::vector<const TrackPoint*> sized;
+  for (const TrackPoint& p : tracks.points)
+    if (p.diameter > 0.0) sized.push_back(&p);
+  if (sized.size() < kFewest) return;
+  // The log of the size: of each body, what distance from the axis adds (spheres are seen as ellipses there), and how it changes over the picture.
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(sized.size()), 5);
+  Eigen::VectorXd size(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const TrackPoint& p = *sized[static_cast<std::size_t>(i)];
+    rows(i, p.body) = 1.0;
+    const Vec2 off((p.pixel.x() - camera.cx) / camera.fx, (p.pixel.y() - camera.cy) / camera.fy);
+    rows(i, 2) = off.squaredNorm();
+    rows.row(i).tail<2>() = off.transpose();
+    size[i] = std::log(p.diameter);
+  }
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(rows);
+  const Eigen::VectorXd fit = solver.solve(size), seen = rows.rightCols<2>() * fit.tail<2>();
+  const double rms = std::sqrt((rows * fit - size).squaredNorm() / static_cast<double>(rows.rows() - rows.cols())), change = seen.maxCoeff() - seen.minCoeff();
+  const double error = rms / std::sqrt((seen.array() - seen.mean()).square().sum()) * change;
+  if (change > slanting && change > kSignificant * error)
+    context.warn(fmt::format("{}: sizes change by {:.1f} % across what was seen: without gravity all must move in a plane parallel to the image, and restitution and mass ratio are off by about as much if it does not", shot.name, 100.0 * change));
 }
 
 /// Bodies are told apart by their sizes, if nobody labelled them: sizes that are alike tell little, and where none was seen the mass ratio might
@@ -63,10 +113,11 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
   if (footage.moving_camera) context.warn("the camera moves more than can be undone; film from a tripod");
 }
 
-void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
+void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   doubt_labels(shot, tracks, impacts.front(), result, context);
   compare_scales(shot, impacts, context);
-  compare_down(shot, impacts.front(), context);
+  compare_down(shot, impacts, result, context);
+  check_parallel(shot, impacts.front().solution.problem.camera, tracks, context);
   const bool several = result.fixed.empty() && tracks.collisions_seen > 1;
   if (several) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
   const bool refused = std::any_of(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return !i.check.reasons.empty(); });
@@ -77,7 +128,7 @@ void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedI
     context.warn("no confident restitution: it ends on a bound, 0 or 1");
   if (result.fits && !result.restitution && !several)
     context.warn("no confident restitution: the flights tell too little of it");
-  look_for_drag(shot, impacts, result, context);
+  look_for_drag(shot, options, impacts, result, context);
 }
 
 }  // namespace unseen::collision

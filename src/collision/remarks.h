@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collision/describe.h"
+#include "unseen/collision/options.h"
 #include "unseen/core/context.h"
 
 namespace unseen::collision {
@@ -12,8 +13,8 @@ namespace unseen::collision {
 /// Warns of a guessed camera and of one that moves.
 void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context);
 
-/// Warns where size and gravity tell of different scales, where the air seems to slow a body down, of several collisions, and says why the
+/// Warns where size and gravity tell of different scales, where flights contradict what is given of down, where sizes say that a shot without gravity slants, where the air seems to slow a body down, of several collisions, and says why the
 /// model does not fit. Two bodies of a film that look alike in size may have been taken for each other: the result then has that as another solution.
-void remark_on(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context);
+void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context);
 
 }  // namespace unseen::collision

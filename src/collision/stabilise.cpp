@@ -3,6 +3,7 @@
 #include "collision/stabilise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -39,6 +40,26 @@ bool spread(const std::vector<cv::Point2f>& points, const std::vector<unsigned c
   return box.width > kSpread * size.width && box.height > kSpread * size.height;
 }
 
+/// The strongest corners of each part of the picture, then the strongest of all: one textured wall would tell nothing of turns and zooms.
+std::vector<cv::Point2f> corners_of(const cv::Mat& gray) {
+  constexpr int kAcross = 3;  // parts, and down
+  std::vector<cv::Point2f> all, corners, rest;
+  cv::goodFeaturesToTrack(gray, all, 0, kQuality, kSpacing);
+  std::array<int, kAcross * kAcross> count{};
+  for (const cv::Point2f& p : all) {
+    int& here = count[static_cast<int>(p.y) * kAcross / gray.rows * kAcross + static_cast<int>(p.x) * kAcross / gray.cols];
+    if (here < kCorners / static_cast<int>(count.size())) {
+      ++here;
+      corners.push_back(p);
+    } else {
+      rest.push_back(p);
+    }
+  }
+  rest.resize(std::min(rest.size(), kCorners - corners.size()));
+  corners.insert(corners.end(), rest.begin(), rest.end());
+  return corners;
+}
+
 cv::Mat identity() { return (cv::Mat_<double>(2, 3) << 1, 0, 0, 0, 1, 0); }
 
 }  // namespace
@@ -46,7 +67,7 @@ cv::Mat identity() { return (cv::Mat_<double>(2, 3) << 1, 0, 0, 0, 1, 0); }
 void Stabiliser::add(const cv::Mat& gray, bool usable) {
   if (usable && first_.empty()) {
     first_ = gray.clone();
-    cv::goodFeaturesToTrack(gray, corners_, kCorners, kQuality, kSpacing);
+    corners_ = corners_of(gray);
     places_ = corners_;
     shifts_.push_back(identity());
     return;

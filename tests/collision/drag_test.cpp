@@ -96,6 +96,41 @@ TEST(Drag, IsSaidWithoutAMass) {
   EXPECT_GE(r.restitution->high, kBack);
 }
 
+/// Whether the interval holds the restitution that the ball has.
+bool holds(const Reconstruction& r) { return r.restitution && r.restitution->low <= kBack && kBack <= r.restitution->high; }
+
+// What the air does to a tennis ball is less than its flights tell of, and more than their interval.
+TEST(Drag, ThatTheMassGivesAndTheFlightsCannotTellIsInTheInterval) {
+  constexpr double kTennis = 0.13 * kDrag;  // 1/m
+  Shot shot = bouncing(kTennis);
+  Random random(5);
+  for (Sighting& s : shot.observations) s.pixel += 0.6 * Vec2(random.normal(), random.normal()), s.radius = 0.0;
+  Context context;
+  const Reconstruction bare = reconstruct(shot, {}, context);
+  ASSERT_TRUE(bare.restitution);
+  EXPECT_FALSE(holds(bare));
+  EXPECT_TRUE(warned(bare, "as no mass is given"));
+  shot.bodies[0].mass = kMass * kDrag / kTennis;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  EXPECT_TRUE(holds(r));
+  EXPECT_TRUE(r.fits);
+  EXPECT_FALSE(warned(r, "no mass"));
+}
+
+TEST(Drag, ThatIsEstimatedLeavesItsDoubtInTheInterval) {
+  Shot shot = bouncing(kDrag);
+  shot.bodies[0].mass = kMass;
+  shot.frames = {0, 99};  // one bounce
+  Options on, estimate;
+  on.drag = "on";
+  estimate.drag = "estimate";
+  Context context;
+  const Reconstruction known = reconstruct(shot, on, context), fitted = reconstruct(shot, estimate, context);
+  ASSERT_TRUE(known.restitution && fitted.restitution);
+  EXPECT_TRUE(holds(fitted));
+  EXPECT_GT(fitted.restitution->sd, 1.3 * known.restitution->sd);
+}
+
 TEST(Drag, IsNotSaidOfAHeavyBall) {
   Context context;
   const Reconstruction r = reconstruct(bouncing(0.0), {}, context);

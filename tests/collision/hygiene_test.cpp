@@ -96,6 +96,49 @@ TEST(Hygiene, ATruncatedFileGivesAWarning) {
   EXPECT_TRUE(warned(context, "announced"));
 }
 
+/// Matroska knows milliseconds only: 600 frames a second are steps of 1 and 2.
+TEST(Hygiene, StampsInWholeMillisecondsAreEven) {
+  for (const double fps : {240.0, 600.0}) {
+    std::vector<double> stamps;
+    for (int k = 0; k < 100; ++k) stamps.push_back(std::round(1000.0 * k / fps) / 1000.0);
+    for (const std::optional<double> given : {std::optional<double>(), std::optional(fps)}) {
+      Context context;
+      EXPECT_NEAR(frame_times(stamps, fps, given, "v", context)[60], 60.0 / fps, 1e-9) << fps;
+      EXPECT_FALSE(warned(context, "uneven")) << fps;
+    }
+    stamps.erase(stamps.begin() + 50);
+    stamps.erase(stamps.begin() + 50);
+    Context context;
+    EXPECT_NEAR(frame_times(stamps, fps, fps, "v", context)[90], 92.0 / fps, 0.001) << fps;
+    EXPECT_TRUE(warned(context, "uneven")) << fps;
+  }
+}
+
+// From 25 to 30 frames a second by repeating every sixth, and compressed again: much less changes there, but not nothing.
+TEST(Hygiene, RepeatsOfAConversionAreFoundAndTheOthersSpacedEvenly) {
+  Random random(2);
+  std::vector<double> change, light;
+  for (int k = 0; k < 120; ++k) {
+    change.push_back((k % 6 == 5 ? 0.2 : 1.0) * random.uniform(0.7, 1.3));
+    light.push_back(100.0 + 0.01 * random.normal());
+  }
+  const Repeats found = find_repeats(change, light);
+  for (int k = 1; k < 120; ++k) EXPECT_EQ(found.doubled[k] != 0, k % 6 == 5) << k;
+  EXPECT_DOUBLE_EQ(found.frames_each, 1.2);
+  std::vector<double> times;
+  for (int k = 0; k < 120; ++k) times.push_back(k / 30.0);
+  share_out_times(found, times);
+  EXPECT_NEAR(times[4], 4 / 25.0, 1e-9);
+  EXPECT_NEAR(times[5], times[4], 1e-9);
+  EXPECT_NEAR(times[6], 5 / 25.0, 1e-9);
+  EXPECT_NEAR(times[118], 99 / 25.0, 1e-9);
+  // A lamp has a period of its own; and what moves by fits and starts has none.
+  for (int k = 0; k < 120; ++k) light[k] = 100.0 + 3.0 * std::sin(2.0 * kPi * k / 6.0);
+  EXPECT_DOUBLE_EQ(find_repeats(change, light).frames_each, 1.0);
+  for (double& c : change) c = random.uniform(0.2, 1.3);
+  EXPECT_DOUBLE_EQ(find_repeats(change, std::vector<double>(120, 100.0)).frames_each, 1.0);
+}
+
 TEST(Hygiene, UnevenStampsAreUsedAndSaid) {
   Context context;
   const std::vector<double> even{0.0, 0.04, 0.08, 0.12}, uneven{0.0, 0.04, 0.08, 0.16, 0.2, 0.24}, broken{0.0, 0.04, 0.08, 0.0};

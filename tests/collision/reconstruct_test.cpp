@@ -54,6 +54,75 @@ TEST(Reconstruct, ReadsTheRestitutionOfABouncingBall) {
   EXPECT_FALSE(r.mass_ratio);
 }
 
+// A camera that looks down by 12° while the shot says that it is level.
+TEST(Reconstruct, DownThatTheFlightsContradictIsSaid) {
+  const double pitch = radians(12.0), c = 0.7, fps = 120;
+  Shot shot = bouncing_ball(c, 60, fps);
+  shot.observations.clear();
+  Random random(4);
+  const double impact = std::sqrt(2.0 * 0.8 / 9.81);
+  for (int f = 0; f < 90; ++f) {
+    const double t = f / fps, since = t - impact, v = c * 9.81 * impact;
+    const double height = t < impact ? 0.8 - 0.5 * 9.81 * t * t : v * since - 0.5 * 9.81 * since * since;
+    const Vec3 level(0.3 * t - 0.1, 0.4 - height, 2.2), p = Eigen::AngleAxisd(pitch, Vec3::UnitX()) * level;
+    shot.observations.push_back({f, Vec2(320 + 800 * p.x() / p.z(), 240 + 800 * p.y() / p.z()) + 0.3 * Vec2(random.normal(), random.normal()), 800 * 0.03 / p.z(), 0});
+  }
+  const Vec3 down = Eigen::AngleAxisd(pitch, Vec3::UnitX()) * Vec3::UnitY();
+  for (const bool right : {true, false}) {
+    shot.down = right ? down : Vec3::UnitY();
+    Context context;
+    const Reconstruction r = reconstruct(shot, {}, context);
+    const bool said = std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("away from where it is given") != std::string::npos; });
+    EXPECT_EQ(said, !right);
+    ASSERT_TRUE(r.restitution);
+    EXPECT_LE(r.restitution->low, c);
+    EXPECT_GE(r.restitution->high, c);
+  }
+}
+
+/// Two discs on a table without friction, seen from above by a camera that is `slant` (rad) off the vertical.
+Shot discs_on_a_table(double slant) {
+  Shot shot = bouncing_ball(0.7, 1);
+  shot.gravity = 0.0;
+  shot.observations.clear();
+  shot.bodies[1] = shot.bodies[0];
+  shot.bodies[1].name = "other";
+  Random random(6);
+  const double fps = 60, c = 0.9, radius = 0.03, time = 0.45;
+  const std::array<Vec3, 2> at{Vec3(-radius, 0, 0), Vec3(radius, 0, 0)}, before{Vec3(0.8, 0.5, 0), Vec3(-0.6, 0.2, 0)};
+  const double sum = 0.2, apart = c * 1.4;
+  const std::array<Vec3, 2> after{Vec3(0.5 * (sum - apart), 0.5, 0), Vec3(0.5 * (sum + apart), 0.2, 0)};
+  for (int f = 0; f < 54; ++f)
+    for (int o = 0; o < 2; ++o) {
+      const double t = f / fps - time;
+      const Vec3 p = Eigen::AngleAxisd(slant, Vec3::UnitX()) * (at[o] + t * (t < 0 ? before[o] : after[o])) + Vec3(0, 0, 1.5);
+      shot.observations.push_back({f, Vec2(320 + 800 * p.x() / p.z(), 240 + 800 * p.y() / p.z()) + 0.2 * Vec2(random.normal(), random.normal()), 800 * radius / p.z() * (1 + 0.01 * random.normal()), o});
+    }
+  return shot;
+}
+
+TEST(Reconstruct, APlaneThatSlantsIsSaidWithoutGravity) {
+  for (const double slant : {0.0, 0.15}) {
+    Context context;
+    const Reconstruction r = reconstruct(discs_on_a_table(slant), {}, context);
+    const bool said = std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("parallel to the image") != std::string::npos; });
+    EXPECT_EQ(said, slant > 0.0);
+    ASSERT_FALSE(r.impacts.empty());
+  }
+}
+
+TEST(Reconstruct, SightingsFarApartInFramesAreSaid) {
+  Shot shot = bouncing_ball(0.7);
+  for (const int apart : {1, 8}) {
+    Shot spread = shot;
+    *spread.fps *= apart;
+    for (Sighting& s : spread.observations) s.frame *= apart;
+    Context context;
+    const Reconstruction r = reconstruct(spread, {}, context);
+    EXPECT_EQ(std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("8 frames apart") != std::string::npos; }), apart > 1);
+  }
+}
+
 TEST(Reconstruct, FlightsBetweenTwoImpactsHaveNoJump) {
   Shot shot = bouncing_ball(0.7, 120);
   Random random(3);

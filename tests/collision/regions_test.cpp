@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <functional>
+#include <opencv2/imgproc.hpp>
 
+#include "collision/stabilise.h"
 #include "little_videos.h"
 #include "unseen/core/error.h"
 
@@ -281,6 +283,27 @@ TEST(Regions, RoiFramesAndRateOfTheShot) {
     for (const Region& r : frame) EXPECT_LE(r.box.br().x, 150);
   shot.roi = {400, 0, 10, 10};
   EXPECT_THROW(find_regions(shot, context), InputError);
+}
+
+// A wall with a strong texture above a floor with a weak one: the drift of the camera is told by all of the picture.
+TEST(Stabiliser, CornersComeFromAllPartsOfThePicture) {
+  Random random(9);
+  cv::Mat texture(360, 640, CV_32F);
+  for (int y = 0; y < texture.rows; ++y)
+    for (int x = 0; x < texture.cols; ++x) texture.at<float>(y, x) = 128.0f + (y < 90 ? 60.0f : 14.0f) * static_cast<float>(random.normal());
+  cv::GaussianBlur(texture, texture, {}, 2.0);
+  Stabiliser stabiliser;
+  constexpr double kDrift = 0.2;  // px a frame
+  for (int k = 0; k < 40; ++k) {
+    cv::Mat moved, gray;
+    cv::warpAffine(texture, moved, cv::Mat((cv::Mat_<double>(2, 3) << 1, 0, kDrift * k, 0, 1, 0)), texture.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
+    moved.convertTo(gray, CV_8U);
+    stabiliser.add(gray, true);
+  }
+  const Stabiliser::Motion motion = stabiliser.finish(1.0);
+  ASSERT_EQ(motion.shift.size(), 40u);
+  EXPECT_LT(motion.lost, 0.05);
+  EXPECT_NEAR(motion.shift[39].at<double>(0, 2), -39 * kDrift, 0.2);
 }
 
 }  // namespace
