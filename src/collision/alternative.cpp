@@ -14,6 +14,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kClearlyBetter = 9.0;  // χ²
+constexpr double kHardlyWorse = 4.0;    // χ²
 constexpr double kSlack = 0.05;         // outside of [0, 1]: no body bounces so
 
 void widen(Estimate& estimate, double value) {
@@ -38,10 +39,10 @@ void add_alternative(const std::string& what, const std::vector<SolvedImpact>& s
   const std::vector<Estimate> each = restitutions_of(solved);
   const double pool = pooled(each).value, c = std::clamp(pool, 0.0, 1.0);
   if (!(std::abs(pool - c) < kSlack)) return;
-  const bool differs = saved > kClearlyBetter || !result.restitution || c < result.restitution->low || c > result.restitution->high;
+  const bool outside = !result.restitution || c < result.restitution->low || c > result.restitution->high;
   for (std::size_t k = 0; k < solved.size(); ++k) widen(result.impacts[k].restitution, each[k].value);
   if (result.restitution) widen(*result.restitution, c);
-  if (!differs) return;
+  if (!(saved > kClearlyBetter || (outside && saved > -kHardlyWorse))) return;
   const double mass_ratio = solved.front().solution.problem.fixed ? 0.0 : solved.front().solution.fit.state.mass_ratio;
   result.ambiguous.push_back({fmt::format("{}: c = {:.2f}", what, c), c, mass_ratio, -saved});
 }

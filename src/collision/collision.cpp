@@ -39,15 +39,15 @@ void warn_of_far_orientations(const Shot& shot, const Tracks& tracks, Context& c
   }
 }
 
-/// Flights are followed over a few frames that lack a sighting.
-void warn_of_far_sightings(const Shot& shot, const std::vector<Sighting>& sightings, double fps, Context& context) {
+/// Why flights of sightings may not have been found: they are followed over a few frames that lack one.
+void warn_of_far_sightings(const Shot& shot, double fps, Context& context) {
   constexpr double kFar = 2.5;
   std::set<int> frames;
-  for (const Sighting& s : sightings) frames.insert(s.frame);
+  for (const Sighting& s : shot.observations) frames.insert(s.frame);
   std::vector<double> steps;
   for (auto it = frames.begin(); it != frames.end() && std::next(it) != frames.end(); ++it) steps.push_back(*std::next(it) - *it);
   if (const double step = median(std::move(steps)); step > kFar)
-    context.warn(fmt::format("{}: sightings are {:.0f} frames apart at {:.4g} frames a second, and flights are followed from frame to frame: count \"frame\" by the sightings, with \"fps\" about {:.4g}",
+    context.warn(fmt::format("{}: sightings are {:.0f} frames apart at {:.4g} frames a second, and flights are followed from frame to frame: count all frames by the sightings, with \"fps\" about {:.4g}",
                              shot.name, step, fps, fps / step));
 }
 
@@ -105,7 +105,6 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
     evidence.camera = complete_camera(shot, 0, 0);
     std::vector<Sighting> sightings = shot.observations;
     if (shot.frames) std::erase_if(sightings, [&](const Sighting& s) { return s.frame < (*shot.frames)[0] || s.frame > (*shot.frames)[1]; });
-    warn_of_far_sightings(shot, sightings, evidence.fps, context);
     evidence.tracks = find_tracks(shot, evidence.camera, sightings, evidence.fps, context);
     return evidence;
   }
@@ -162,12 +161,15 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   if (impacts.empty()) {
     summary.status = Status::infeasible;
     context.warn(nothing_found(shot, tracks));
+    warn_of_far_sightings(shot, evidence.fps, context);
     return;
   }
   result.bodies.clear();
   describe(shot, tracks, evidence.fps, impacts, result);
   remark_on(shot, options, tracks, impacts, result, context);
-  if (!result.restitution) summary.status = Status::infeasible;
+  if (result.restitution) return;
+  summary.status = Status::infeasible;
+  warn_of_far_sightings(shot, evidence.fps, context);
 }
 
 }  // namespace

@@ -60,18 +60,17 @@ std::optional<Drag> likely_drag(const std::vector<SolvedImpact>& impacts, double
 
 /// Says what the air may do to the restitution of bodies whose masses nobody gave, if they may be light and it is more than the interval tells.
 void warn_of_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impacts, double none, const Reconstruction& result, Context& context) {
-  if (!result.restitution) return;
-  for (const double density : {80.0, 160.0, 320.0}) {  // kg/m³: of a basketball or a table-tennis ball, and up to a tennis ball's
+  if (!result.restitution || std::any_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& body) { return body.mass.has_value(); })) return;
+  for (const double density : {320.0, 160.0, 80.0}) {  // kg/m³: of a tennis ball, and down to a basketball's or a table-tennis ball's
     Shot light = shot;
-    for (std::size_t o = 0; o < light.bodies.size(); ++o)
-      if (!light.bodies[o].mass) light.bodies[o].mass = density * impacts.front().solution.problem.solids[o].mass.volume;
+    for (std::size_t o = 0; o < light.bodies.size(); ++o) light.bodies[o].mass = density * impacts.front().solution.problem.solids[o].mass.volume;
     const std::optional<Drag> drag = known_drag(light, impacts.front());
     if (!drag) return;
     const std::vector<SolvedImpact> solved = with_drag(impacts, *drag);
-    if (!(2.0 * (none - cost_of(solved)) > -kSaved)) continue;  // not so light
+    if (!(2.0 * (none - cost_of(solved)) > -kSaved)) return;  // not so light
     const double c = pooled(restitutions_of(solved)).value;
-    if (c < result.restitution->low || c > result.restitution->high)
-      context.warn(fmt::format("drag of the air is left out, as no mass is given: with a density of {:.0f} kg/m³ c would be {:.3f}; give \"mass\" in kg", density, c));
+    if (c >= result.restitution->low && c <= result.restitution->high) continue;
+    context.warn(fmt::format("no mass is given, so that drag of the air is left out: c would be {:.3f} if the density were {:.0f} kg/m³, as a {}ball's; give \"mass\" in kg", c, density, density > 200.0 ? "tennis " : density > 100.0 ? "foot" : "basket"));
     return;
   }
 }
@@ -79,20 +78,22 @@ void warn_of_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& imp
 /// Adds what the doubt of a fitted drag leaves in the restitutions.
 void add_doubt_of_drag(const std::vector<SolvedImpact>& impacts, Reconstruction& result) {
   constexpr double kLeastStep = 0.005, kStep = 0.2;  // 1/m; of the drag
-  const double drag = impacts.front().solution.problem.drag[0], low = std::max(0.0, drag - kStep * drag - kLeastStep), high = drag + kStep * drag + kLeastStep;
-  const std::vector<SolvedImpact> less = with_drag(impacts, shared_out(impacts.front(), low)), more = with_drag(impacts, shared_out(impacts.front(), high));
-  const double now = cost_of(impacts), bend = 2.0 * ((cost_of(more) - now) / (high - drag) - (now - cost_of(less)) / (drag - low)) / (high - low);
-  const double sd = bend > 0.0 ? 1.0 / std::sqrt(bend) : kMostDrag;  // the cost is ½ χ²
+  const double drag = impacts.front().solution.problem.drag[0], step = kLeastStep + kStep * drag, middle = std::max(drag, step);
+  const auto at = [&](double value) { return with_drag(impacts, shared_out(impacts.front(), value)); };
+  const std::vector<SolvedImpact> less = at(middle - step), more = at(middle + step);
+  const double bend = (cost_of(more) - 2.0 * cost_of(at(middle)) + cost_of(less)) / (step * step);  // of ½ χ²
+  if (!std::isfinite(bend)) return;
+  const double sd = bend > 0.0 ? 1.0 / std::sqrt(bend) : kMostDrag;
   const std::vector<Estimate> with_less = restitutions_of(less), with_more = restitutions_of(more);
-  const auto add = [&](Estimate& estimate, double from, double to) {
+  const auto inflate = [&](Estimate& estimate, double from, double to) {
     if (!(estimate.sd > 0.0)) return;
-    const double factor = std::hypot(1.0, sd * (to - from) / (high - low) / estimate.sd);
+    const double factor = std::hypot(1.0, sd * (to - from) / (2.0 * step) / estimate.sd);
     estimate.low = std::max(0.0, estimate.value - factor * (estimate.value - estimate.low));
     estimate.high = std::min(1.0, estimate.value + factor * (estimate.high - estimate.value));
     estimate.sd *= factor;
   };
-  for (std::size_t k = 0; k < impacts.size(); ++k) add(result.impacts[k].restitution, with_less[k].value, with_more[k].value);
-  if (result.restitution) add(*result.restitution, pooled(with_less).value, pooled(with_more).value);
+  for (std::size_t k = 0; k < impacts.size(); ++k) inflate(result.impacts[k].restitution, with_less[k].value, with_more[k].value);
+  if (result.restitution) inflate(*result.restitution, pooled(with_less).value, pooled(with_more).value);
 }
 
 }  // namespace
@@ -130,26 +131,27 @@ Drag best_drag(const std::vector<SolvedImpact>& impacts) {
   return shared_out(impacts.front(), 0.5 * (low + high));
 }
 
-void look_for_drag(const Shot& shot, const Options& options, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
+double look_for_drag(const Shot& shot, const Options& options, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   const Problem& problem = impacts.front().solution.problem;
-  if (problem.planar) return;
+  if (problem.planar) return 0.0;
   if (options.drag == "estimate") add_doubt_of_drag(impacts, result);
-  if (options.drag != "off") return;
+  if (options.drag != "off") return 0.0;
   const double none = cost_of(with_drag(impacts, {0.0, 0.0}));
   const std::optional<Drag> known = known_drag(shot, impacts.front()), drag = known ? known : likely_drag(impacts, none);
   std::vector<SolvedImpact> solved = drag ? with_drag(impacts, *drag) : std::vector<SolvedImpact>();
   const double saved = drag ? 2.0 * (none - cost_of(solved)) : 0.0;
-  if (std::isinf(saved)) return;
+  if (std::isinf(saved)) return 0.0;
   if (!(saved > (known ? kSaved : kSavedFreely))) {
     if (known && saved > -kSaved) add_alternative("with drag of the air", solved, saved, result);  // the flights cannot tell
     if (!known) warn_of_light_bodies(shot, impacts, none, result, context);
-    return;
+    return saved;
   }
   const std::string who = problem.fixed ? shot.bodies[0].name : fmt::format("{} and {}", shot.bodies[0].name, shot.bodies[1].name);
   context.warn(fmt::format("{}: the air slows {} down: with drag the flights fit better (χ² falls by {:.0f}); {}", who, problem.fixed ? "it" : "them", saved,
                            known ? "use --drag on" : fmt::format("give the mass and use --drag on, or use --drag estimate (about {:.2f} 1/m)", (*drag)[0])));
   if (known && saved > kRefuted) result.fits = false;
   add_alternative("with drag of the air", solved, saved, result);
+  return saved;
 }
 
 }  // namespace unseen::collision

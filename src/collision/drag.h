@@ -25,7 +25,8 @@ Drag best_drag(const std::vector<SolvedImpact>& impacts);
 
 /// Where drag was not asked for but explains the flights clearly better, by the bodies' masses or else the best one: warns, lists the solution
 /// with it under `ambiguous`, and widens the restitutions to hold it. With drag that the masses give the model without does not fit. Drag that the masses
-/// give and the flights cannot tell widens them too; where no mass is given, it is said if drag may matter. The doubt of a fitted drag is added.
-void look_for_drag(const Shot& shot, const Options& options, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context);
+/// give and the flights cannot tell widens them too; where no mass is given, it is said if drag may matter. The doubt of a fitted drag is added. Nothing of all this without
+/// gravity. Returns the χ² that drag saves.
+double look_for_drag(const Shot& shot, const Options& options, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context);
 
 }  // namespace unseen::collision

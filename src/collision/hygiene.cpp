@@ -19,29 +19,37 @@ constexpr double kUneven = 0.25;      // of a frame time
 constexpr double kTick = 1e-3;        // s: Matroska rounds stamps to it
 constexpr int kLongestPeriod = 12;    // frames
 constexpr int kFewestRepeats = 5;     // that make a period
-constexpr double kRegular = 0.4;      // share of the neighbours' change that repeats at regular places may show, most of them, …
-constexpr double kFlicker = 0.5;       // share of the change that the light as a whole may make
-constexpr double kTelling = 0.3;      // … where that is more than this share of what changes most
+constexpr double kRegular = 0.4;      // share of the neighbours' change that repeats at regular places may show, most of them
+constexpr double kMostRepeats = 0.6;  // share of the frames
+constexpr double kAlike = 0.7;        // share of the largest change of a phase that the others of no repeat must show: what swings slows down first
+constexpr double kCaughtUp = 1.6;     // times as much changes after a repeat where a frame was lost instead
+constexpr double kTelling = 0.3;      // share of what most frames change by: less tells of no repeat
+constexpr double kFlicker = 0.5;      // share of the change that the light as a whole may make
 
-/// Whether all stamps are whole milliseconds, and tell a frame time no better.
+/// Whether all stamps are whole milliseconds.
 bool are_rounded(const std::vector<double>& stamps) {
   return std::all_of(stamps.begin(), stamps.end(), [](double t) { return std::abs(t / kTick - std::round(t / kTick)) < 1e-3; });
 }
 
-/// The typical step between stamps that follow each other, s; 0 = there is none. Where they are rounded, as many steps as they may be share what they sum up to.
-double typical_step(const std::vector<double>& stamps) {
+/// The typical step between stamps that follow each other, s; 0 = there is none. Of rounded ones the file's own rate is nearer than their median.
+double typical_step(const std::vector<double>& stamps, double file_fps) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < stamps.size(); ++k)
     if (stamps[k] > stamps[k - 1]) steps.push_back(stamps[k] - stamps[k - 1]);
-  double typical = median(steps);
-  if (typical == 0.0 || !are_rounded(stamps)) return typical;
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds; ++round) {
-    double sum = 0, count = 0;
-    for (const double step : steps) sum += step, count += std::max(1.0, std::round(step / typical));
-    typical = sum / count;
-  }
+  const double typical = median(std::move(steps));
+  if (typical > 0.0 && file_fps > 0.0 && are_rounded(stamps) && std::abs(1.0 / file_fps - typical) < kTick) return 1.0 / file_fps;
   return typical;
+}
+
+/// Whether rounded stamps are those of even frames, at about this rate. Some may be left out.
+bool are_even_but_rounded(const std::vector<double>& stamps, double fps) {
+  constexpr double kSameRate = 0.005;
+  const auto last = std::max_element(stamps.begin(), stamps.end()) - stamps.begin();
+  const double step = (stamps[last] - stamps[0]) / static_cast<double>(std::max<std::ptrdiff_t>(1, last));
+  if (!are_rounded(stamps) || std::abs(step * fps - 1.0) > kSameRate) return false;
+  for (std::size_t k = 1; k < stamps.size(); ++k)
+    if (stamps[k] > stamps[0] && std::abs(stamps[k] - stamps[0] - static_cast<double>(k) * step) > kTick + kUneven * step) return false;
+  return true;
 }
 
 /// What changes around a frame: the second largest of its neighbours' changes; 0 where there are none.
@@ -54,20 +62,35 @@ double change_near(const std::vector<double>& change, int frame) {
   return near[1];
 }
 
-/// Which frames of each period repeat the one before, as conversion to a higher rate leaves them: clearly less changes there, again and again.
-std::vector<char> repeats_of_period(const std::vector<double>& share, int period) {
-  std::vector<char> repeats(period, 0);
-  std::vector<double> others;
+/// What repeats in each period, as conversion to a higher rate leaves it.
+struct Period {
+  std::vector<char> repeats;  ///< by phase; empty = there are none
+  bool even = true;           ///< no frame was lost where one repeats
+};
+
+/// `share`: of the change nearby that a frame shows; negative where it tells nothing.
+Period repeats_of_period(const std::vector<double>& share, int period) {
+  Period found{std::vector<char>(period, 0), true};
+  std::vector<double> typical(period, 0.0);
   for (int phase = 0; phase < period; ++phase) {
     std::vector<double> here;
     for (std::size_t k = phase; k < share.size(); k += period)
       if (share[k] >= 0.0) here.push_back(share[k]);
-    repeats[phase] = static_cast<int>(here.size()) >= kFewestRepeats && quantile(here, 0.9) < kRegular;
-    if (!repeats[phase]) others.insert(others.end(), here.begin(), here.end());
+    if (static_cast<int>(here.size()) < kFewestRepeats) return {};
+    found.repeats[phase] = quantile(here, 0.9) < kRegular;
+    if (!found.repeats[phase] && quantile(here, 0.2) < kRegular) return {};
+    typical[phase] = median(std::move(here));
   }
-  const auto some = std::count(repeats.begin(), repeats.end(), 1);
-  if (some == 0 || others.empty() || quantile(others, 0.1) < kRegular) return {};
-  return repeats;
+  const auto some = static_cast<double>(std::count(found.repeats.begin(), found.repeats.end(), 1));
+  if (some == 0 || some > kMostRepeats * period) return {};
+  const double most = *std::max_element(typical.begin(), typical.end());
+  std::vector<double> after, others;
+  for (int phase = 0; phase < period; ++phase)
+    if (!found.repeats[phase]) (found.repeats[(phase + period - 1) % period] ? after : others).push_back(typical[phase]);
+  found.even = others.empty() || median(after) < kCaughtUp * median(others);
+  for (int phase = 0; phase < period && found.even; ++phase)
+    if (!found.repeats[phase] && typical[phase] < kAlike * most) return {};
+  return found;
 }
 
 /// Steps between frames, in frame times of the typical step. Containers leave some stamps out: what is between the two beside them is shared out.
@@ -86,31 +109,41 @@ std::vector<double> steps_of(const std::vector<double>& stamps, double typical) 
 }  // namespace
 
 Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness) {
-  Repeats repeats{std::vector<char>(change.size(), 0), 1.0};
-  std::vector<double> share(change.size(), -1.0);  // of the change nearby; −1 where that is little
-  const double most = change.size() < 2 ? 0.0 : *std::max_element(change.begin() + 1, change.end());
+  Repeats repeats{std::vector<char>(change.size(), 0), {}, 1.0};
+  if (change.size() < 2) return repeats;
+  std::vector<double> share(change.size(), -1.0), lighter;
+  const double most = quantile(change, 0.9);
   for (int k = 1; k < static_cast<int>(change.size()); ++k) {
     const double near = change_near(change, k);
     repeats.doubled[k] = change[k] < kRepeats * near;
     if (near > kTelling * most) share[k] = change[k] / near;
+    lighter.push_back(std::abs(brightness[k] - brightness[k - 1]));
   }
-  std::vector<double> lighter;
-  for (std::size_t k = 1; k < brightness.size(); ++k) lighter.push_back(std::abs(brightness[k] - brightness[k - 1]));
   if (median(std::move(lighter)) > kFlicker * median(change)) return repeats;  // lamps have periods of their own
   for (int period = 2; period <= kLongestPeriod; ++period) {
-    const std::vector<char> regular = repeats_of_period(share, period);
-    if (regular.empty()) continue;
-    for (std::size_t k = 1; k < change.size(); ++k) repeats.doubled[k] = regular[k % period];
-    repeats.frames_each = static_cast<double>(period) / static_cast<double>(std::count(regular.begin(), regular.end(), 0));
+    const Period found = repeats_of_period(share, period);
+    if (found.repeats.empty()) continue;
+    if (found.even) {
+      repeats.converted.assign(change.size(), 0);
+      repeats.frames_each = static_cast<double>(period) / static_cast<double>(std::count(found.repeats.begin(), found.repeats.end(), 0));
+    }
+    for (std::size_t k = 1; k < change.size(); ++k) {
+      if (!found.repeats[k % period]) continue;
+      repeats.doubled[k] = 1;
+      if (found.even) repeats.converted[k] = 1;
+    }
     break;
   }
   return repeats;
 }
 
-void share_out_times(const Repeats& repeats, std::vector<double>& times) {
-  if (repeats.frames_each == 1.0) return;
-  const double step = repeats.frames_each * (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  for (std::size_t k = 1; k < times.size(); ++k) times[k] = times[k - 1] + (repeats.doubled[k] ? 0.0 : step);
+bool share_out_times(const Repeats& repeats, std::vector<double>& times) {
+  if (repeats.converted.empty()) return false;
+  const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  for (std::size_t k = 0; k < times.size(); ++k)
+    if (std::abs(times[k] - times.front() - static_cast<double>(k) * step) > kUneven * step) return false;  // stamps tell better
+  for (std::size_t k = 1; k < times.size(); ++k) times[k] = times[k - 1] + (repeats.converted[k] ? 0.0 : repeats.frames_each * step);
+  return true;
 }
 
 std::vector<double> frame_times(const std::vector<double>& stamps, double file_fps, std::optional<double> fps, const std::string& name,
@@ -118,11 +151,10 @@ std::vector<double> frame_times(const std::vector<double>& stamps, double file_f
   const double rate = fps.value_or(file_fps);
   std::vector<double> times(stamps.size());
   for (std::size_t k = 0; k < times.size(); ++k) times[k] = static_cast<double>(k) / rate;
-  const double typical = typical_step(stamps);
-  if (typical == 0.0) return times;
+  const double typical = typical_step(stamps, file_fps);
+  if (typical == 0.0 || are_even_but_rounded(stamps, file_fps) || are_even_but_rounded(stamps, rate)) return times;
   const std::vector<double> steps = steps_of(stamps, typical);
-  const double off = kUneven + (are_rounded(stamps) ? kTick / typical : 0.0);
-  const auto uneven = std::count_if(steps.begin(), steps.end(), [&](double s) { return std::abs(s - 1.0) > off; });
+  const auto uneven = std::count_if(steps.begin(), steps.end(), [](double s) { return std::abs(s - 1.0) > kUneven; });
   if (uneven == 0) return times;
   const double longest = *std::max_element(steps.begin(), steps.end());
   context.warn(fmt::format("{}: the time stamps are uneven ({} of {} steps, the longest {:.1f} frame times); they are used instead of "

@@ -13,15 +13,16 @@ namespace unseen::collision {
 /// Frames that repeat the one before.
 struct Repeats {
   std::vector<char> doubled;
-  double frames_each = 1;  ///< frames of the file for each of the film: more than 1 where repeats come at regular places, as conversion to a higher rate leaves them
+  std::vector<char> converted;  ///< those of them that come at regular places, as conversion to a higher rate leaves them; empty = it is no conversion
+  double frames_each = 1;       ///< then: frames of the file for each of the film
 };
 
 /// `change[k]` is the mean difference of frame k from frame k − 1: tiny against its neighbours' where it repeats that, or small at regular places. `brightness`: the
 /// frames' means.
 Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness);
 
-/// Spaces the frames that are no repeats evenly, if repeats come at regular places; a repeat keeps the time of what it repeats.
-void share_out_times(const Repeats& repeats, std::vector<double>& times);
+/// Spaces the frames of a conversion that are no repeats evenly, if the times were even; a repeat keeps the time of what it repeats. True if it did.
+bool share_out_times(const Repeats& repeats, std::vector<double>& times);
 
 /// Times of the frames, s, the first at 0: frame / fps where the time stamps are even or useless, else the stamps themselves, or, with
 /// `fps`, in its frame times. Warns of uneven stamps.

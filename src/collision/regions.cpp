@@ -205,7 +205,7 @@ Footage find_regions(const Shot& shot, Context& context) {
   footage.times = frame_times(survey.stamps, clip.fps(), shot.fps, shot.video, context);
   const Repeats found = find_repeats(survey.change, survey.brightness);
   footage.doubled = found.doubled;
-  share_out_times(found, footage.times);
+  const bool converted = share_out_times(found, footage.times);
   footage.regions.resize(footage.times.size());
   const Stabiliser::Motion motion = survey.stabiliser.finish(tracked_scale(survey.size));
   footage.shift = motion.shift;
@@ -214,8 +214,8 @@ Footage find_regions(const Shot& shot, Context& context) {
   if (footage.moving_camera)
     context.warn(fmt::format("{}: the camera moves, by up to {:.0f} px; a camera on a stand is expected", shot.video, motion.largest));
   const auto repeats = std::count(footage.doubled.begin(), footage.doubled.end(), 1);
-  if (found.frames_each > 1.0)
-    context.warn(fmt::format("{}: frames repeat the one before at regular places, as conversion from {:.4g} frames a second leaves them; left out", shot.video, footage.fps / found.frames_each));
+  if (converted)
+    context.warn(fmt::format("{}: {} frames repeat the one before at regular places, as conversion to a higher rate leaves them; left out, and the others spaced evenly", shot.video, repeats));
   else if (repeats > 0) context.warn(fmt::format("{}: {} repeat{} the one before; left out", shot.video, repeats == 1 ? "1 frame" : fmt::format("{} frames", repeats), repeats == 1 ? "s" : ""));
   const Background background = find_background(registered(survey, footage), context);
   second_pass(shot, survey, background, footage, context);

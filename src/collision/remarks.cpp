@@ -33,8 +33,8 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
   }
 }
 
-/// What the shot says of down is held on to, but flights by themselves may say otherwise.
-void compare_down(const Shot& shot, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
+/// What the shot says of down is held on to, but flights by themselves may say otherwise. `by_drag`: χ² that drag of the air saves; it looks like gravity that leans back.
+void check_down(const Shot& shot, const std::vector<SolvedImpact>& impacts, double by_drag, Reconstruction& result, Context& context) {
   constexpr double kWrong = 0.05;         // rad
   constexpr double kSignificant = 16.0;   // χ²
   if (!shot.down || shot.gravity == 0.0) return;
@@ -46,23 +46,26 @@ void compare_down(const Shot& shot, const std::vector<SolvedImpact>& impacts, Re
   const Vec3 given = shot.down->normalized(), found = likeliest(seen, impacts.front().solution.fit.state.down).first;
   const auto unlikely = [&](const Vec3& down) { return down.dot(seen.precision * down) - 2.0 * seen.sum.dot(down); };
   const double off = std::atan2(given.cross(found).norm(), given.dot(found));
-  const double contradicted = unlikely(given) - unlikely(found);
-  if (!(off > kWrong && contradicted > kSignificant)) return;
-  context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(off)));
+  if (!(off > kWrong && unlikely(given) - unlikely(found) > kSignificant)) return;
   std::vector<SolvedImpact> freed = impacts;
+  double saved = 0.0;  // χ²
   for (SolvedImpact& impact : freed) {
+    const double before = impact.solution.fit.cost;
     impact.solution.problem.down = found;
     impact.solution.problem.down_sigma = kDownSigma;
     impact.solution.fit = settle(impact.solution.problem, impact.solution.fit.state);
     if (!impact.solution.fit.usable) return;
+    saved += 2.0 * (before - impact.solution.fit.cost);
   }
-  add_alternative("with gravity as the flights have it", freed, contradicted, result);
+  if (!(saved > by_drag + kSignificant)) return;
+  context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(off)));
+  add_alternative("with gravity as the flights have it", freed, saved, result);
 }
 
 /// Without gravity all is taken to move in a plane parallel to the image, and then each body looks as large everywhere.
 void check_parallel(const Shot& shot, const Camera& camera, const Tracks& tracks, Context& context) {
-  const double slanting = shot.video.empty() ? 0.01 : 0.08;  // of the size, over the part of the picture that was seen: blur and shadows change that of regions
-  constexpr double kSignificant = 4.0;    // standard errors
+  const double slanting = shot.video.empty() ? 0.01 : 0.08;  // share of the size; blur and shadows change that of regions
+  constexpr double kSignificant = 16.0;                      // χ²
   constexpr std::size_t kFewest = 12;
   if (shot.gravity != 0.0) return;
   std::vector<const TrackPoint*> sized;
@@ -80,11 +83,12 @@ void check_parallel(const Shot& shot, const Camera& camera, const Tracks& tracks
     rows.row(i).tail<2>() = off.transpose();
     size[i] = std::log(p.diameter);
   }
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(rows);
-  const Eigen::VectorXd fit = solver.solve(size), seen = rows.rightCols<2>() * fit.tail<2>();
-  const double rms = std::sqrt((rows * fit - size).squaredNorm() / static_cast<double>(rows.rows() - rows.cols())), change = seen.maxCoeff() - seen.minCoeff();
-  const double error = rms / std::sqrt((seen.array() - seen.mean()).square().sum()) * change;
-  if (change > slanting && change > kSignificant * error)
+  const auto fit_of = [&](const Eigen::MatrixXd& columns) { return Eigen::VectorXd(Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(columns).solve(size)); };
+  const Eigen::MatrixXd level = rows.leftCols<3>();
+  const Eigen::VectorXd fit = fit_of(rows), seen = rows.rightCols<2>() * fit.tail<2>();
+  const double squares = (rows * fit - size).squaredNorm(), without = (level * fit_of(level) - size).squaredNorm();
+  const double change = seen.maxCoeff() - seen.minCoeff(), variance = squares / static_cast<double>(rows.rows() - rows.cols());
+  if (change > slanting && without - squares > kSignificant * variance)
     context.warn(fmt::format("{}: sizes change by {:.1f} % across what was seen: without gravity all must move in a plane parallel to the image, and restitution and mass ratio are off by about as much if it does not", shot.name, 100.0 * change));
 }
 
@@ -116,7 +120,6 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
 void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   doubt_labels(shot, tracks, impacts.front(), result, context);
   compare_scales(shot, impacts, context);
-  compare_down(shot, impacts, result, context);
   check_parallel(shot, impacts.front().solution.problem.camera, tracks, context);
   const bool several = result.fixed.empty() && tracks.collisions_seen > 1;
   if (several) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
@@ -128,7 +131,8 @@ void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, c
     context.warn("no confident restitution: it ends on a bound, 0 or 1");
   if (result.fits && !result.restitution && !several)
     context.warn("no confident restitution: the flights tell too little of it");
-  look_for_drag(shot, options, impacts, result, context);
+  const double by_drag = look_for_drag(shot, options, impacts, result, context);
+  check_down(shot, impacts, by_drag, result, context);
 }
 
 }  // namespace unseen::collision

@@ -80,14 +80,14 @@ TEST(Reconstruct, DownThatTheFlightsContradictIsSaid) {
   }
 }
 
-/// Two discs on a table without friction, seen from above by a camera that is `slant` (rad) off the vertical.
-Shot discs_on_a_table(double slant) {
+/// Two discs on a table without friction, seen from above by a camera that is `slant` (rad) off the vertical; they meet `aside` (m) of its axis.
+Shot discs_on_a_table(double slant, double aside, std::uint64_t seed) {
   Shot shot = bouncing_ball(0.7, 1);
   shot.gravity = 0.0;
   shot.observations.clear();
   shot.bodies[1] = shot.bodies[0];
   shot.bodies[1].name = "other";
-  Random random(6);
+  Random random(seed);
   const double fps = 60, c = 0.9, radius = 0.03, time = 0.45;
   const std::array<Vec3, 2> at{Vec3(-radius, 0, 0), Vec3(radius, 0, 0)}, before{Vec3(0.8, 0.5, 0), Vec3(-0.6, 0.2, 0)};
   const double sum = 0.2, apart = c * 1.4;
@@ -95,31 +95,34 @@ Shot discs_on_a_table(double slant) {
   for (int f = 0; f < 54; ++f)
     for (int o = 0; o < 2; ++o) {
       const double t = f / fps - time;
-      const Vec3 p = Eigen::AngleAxisd(slant, Vec3::UnitX()) * (at[o] + t * (t < 0 ? before[o] : after[o])) + Vec3(0, 0, 1.5);
+      const Vec3 p = Eigen::AngleAxisd(slant, Vec3::UnitX()) * (at[o] + t * (t < 0 ? before[o] : after[o])) + Vec3(aside, 0, 1.5);
       shot.observations.push_back({f, Vec2(320 + 800 * p.x() / p.z(), 240 + 800 * p.y() / p.z()) + 0.2 * Vec2(random.normal(), random.normal()), 800 * radius / p.z() * (1 + 0.01 * random.normal()), o});
     }
   return shot;
 }
 
 TEST(Reconstruct, APlaneThatSlantsIsSaidWithoutGravity) {
-  for (const double slant : {0.0, 0.15}) {
-    Context context;
-    const Reconstruction r = reconstruct(discs_on_a_table(slant), {}, context);
-    const bool said = std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("parallel to the image") != std::string::npos; });
-    EXPECT_EQ(said, slant > 0.0);
-    ASSERT_FALSE(r.impacts.empty());
-  }
+  for (const double slant : {0.0, 0.15})
+    for (const double aside : {0.0, 0.4})
+      for (const std::uint64_t seed : {1, 2, 3}) {
+        Context context;
+        const Reconstruction r = reconstruct(discs_on_a_table(slant, aside, seed), {}, context);
+        const bool said = std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("parallel to the image") != std::string::npos; });
+        EXPECT_EQ(said, slant > 0.0) << slant << " " << aside << " " << seed;
+        ASSERT_FALSE(r.impacts.empty());
+      }
 }
 
+// Of five sightings no bounce is found; that they are far apart in frames may be why.
 TEST(Reconstruct, SightingsFarApartInFramesAreSaid) {
-  Shot shot = bouncing_ball(0.7);
-  for (const int apart : {1, 8}) {
-    Shot spread = shot;
-    *spread.fps *= apart;
-    for (Sighting& s : spread.observations) s.frame *= apart;
+  for (const int apart : {1, 16}) {
+    Shot shot = bouncing_ball(0.7, 5);
+    *shot.fps *= apart;
+    for (Sighting& s : shot.observations) s.frame *= apart;
     Context context;
-    const Reconstruction r = reconstruct(spread, {}, context);
-    EXPECT_EQ(std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("8 frames apart") != std::string::npos; }), apart > 1);
+    const Reconstruction r = reconstruct(shot, {}, context);
+    EXPECT_FALSE(r.restitution);
+    EXPECT_EQ(std::any_of(r.summary.warnings.begin(), r.summary.warnings.end(), [](const std::string& w) { return w.find("16 frames apart") != std::string::npos; }), apart > 1);
   }
 }
 
