@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNear = 3.0 * kPi / 180.0;      // relations that fail by more are not considered
 constexpr std::size_t kEarlier = 40;             // only the heaviest frames constrain others
-constexpr double kByChance = 0.2;  // relations as good that a frame may be expected to have by chance, by the share of the area that the other has
+constexpr double kByChance = 0.12;  // relations as good that a frame may be expected to have by chance, by the share of the area that the other has
 
 /// A relation that may hold between a frame's direction and one of an earlier frame.
 struct Hypothesis {
