@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <queue>
 
 #include "planes/selection.h"
@@ -21,12 +21,25 @@ struct Node {
   bool operator<(const Node& o) const { return bound > o.bound; }  // smallest bound on top
 };
 
-double least_data(const SelectionProblem& p, const Offers& offers, const std::vector<char>& state) {
-  std::vector<double> least(p.patches(), std::numeric_limits<double>::infinity());
+/// What frames offer a patch: cost and frame, the least first.
+using Ranked = std::vector<std::pair<double, int>>;
+
+std::vector<Ranked> ranked_offers(const SelectionProblem& p) {
+  std::vector<Ranked> ranked(p.patches());
+  const Offers offers = offers_of(p);
   for (int k = 0; k < p.frames(); ++k)
-    if (state[k] != 2)
-      for (const Offer& o : offers[k]) least[o.patch] = std::min(least[o.patch], o.cost);
-  return std::accumulate(least.begin(), least.end(), 0.0);
+    for (const Offer& o : offers[k]) ranked[o.patch].emplace_back(o.cost, k);
+  for (Ranked& of_patch : ranked) std::sort(of_patch.begin(), of_patch.end());
+  return ranked;
+}
+
+double least_data(const std::vector<Ranked>& offers, const std::vector<char>& state) {
+  double sum = 0;
+  for (const Ranked& of_patch : offers) {
+    const auto least = std::find_if(of_patch.begin(), of_patch.end(), [&](const auto& offer) { return state[offer.second] != 2; });
+    sum += least == of_patch.end() ? std::numeric_limits<double>::infinity() : least->first;
+  }
+  return sum;
 }
 
 /// Irregularity between a frame and those that are open.
@@ -41,7 +54,7 @@ double irregularity_with(const SelectionProblem& p, int frame, const std::vector
 
 double lower_bound(const SelectionProblem& p, double upper, const Context& context) {
   if (p.patches() == 0) return energy_of(p, {}).total();
-  const Offers offers = offers_of(p);
+  const std::vector<Ranked> offers = ranked_offers(p);
   // Branch first on the frames that matter most: those whose absence costs the most data.
   std::vector<double> weight(p.frames(), 0.0);
   for (int j = 0; j < p.patches(); ++j) {
@@ -71,7 +84,7 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
     }
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return weight[a] > weight[b]; });
-  root.data = least_data(p, offers, root.state);
+  root.data = least_data(offers, root.state);
   root.bound = root.data + p.of_pairs(root.pairs);
   std::priority_queue<Node> open;
   open.push(root);
@@ -88,7 +101,7 @@ double lower_bound(const SelectionProblem& p, double upper, const Context& conte
       if (state == 1) {
         child.pairs += irregularity_with(p, frame, node.state);
       } else {
-        child.data = least_data(p, offers, child.state);
+        child.data = least_data(offers, child.state);
       }
       child.bound = std::max(node.bound, child.data + p.of_pairs(child.pairs));
       if (child.bound < upper) open.push(std::move(child));

@@ -22,6 +22,16 @@ struct Raster {
   }
 };
 
+/// Marks the cells in which points lie, with `margin` empty cells around all.
+Raster rasterize(const std::vector<Vec2>& points, const Vec2& low, const Vec2& high, double cell, int margin) {
+  Raster r;
+  r.width = static_cast<int>((high - low).x() / cell) + 1 + 2 * margin;
+  r.height = static_cast<int>((high - low).y() / cell) + 1 + 2 * margin;
+  r.cells.assign(static_cast<std::size_t>(r.width) * r.height, 0);
+  for (const Vec2& p : points) r.at(static_cast<int>((p - low).x() / cell) + margin, static_cast<int>((p - low).y() / cell) + margin) = 1;
+  return r;
+}
+
 /// Marks cells with full ones (or, to erode, only such) within `radius` along both axes: for each cell of a row,
 /// `run` counts those above and below that have the value that wins.
 Raster dilate(const Raster& r, int radius, bool erode) {
@@ -189,25 +199,19 @@ Polygon outline(const std::vector<Vec3>& points, const Plane& plane, const Vec3&
     high = high.cwiseMax(flat.back());
   }
   cell = std::max(cell, (high - low).maxCoeff() / kLargestRaster);
-  int radius = 2;
-  Raster raster;
-  std::size_t marked = 0;
-  const int margin = 18;
-  Raster points_raster;
-  points_raster.width = static_cast<int>((high - low).x() / cell) + 1 + 2 * margin;
-  points_raster.height = static_cast<int>((high - low).y() / cell) + 1 + 2 * margin;
-  points_raster.cells.assign(static_cast<std::size_t>(points_raster.width) * points_raster.height, 0);
-  for (const Vec2& p : flat) {
-    std::uint8_t& c = points_raster.at(static_cast<int>((p - low).x() / cell) + margin, static_cast<int>((p - low).y() / cell) + margin);
-    marked += c == 0;
-    c = 1;
-  }
   // Gaps are closed a little wider until nearly all points lie in one part.
-  for (; radius <= 16; radius *= 2) {
+  int margin = 0;
+  Raster raster;
+  for (int radius = 2; radius <= 16; radius *= 2) {
+    margin = radius + 1;
+    const Raster points_raster = rasterize(flat, low, high, cell, margin);
     raster = dilate(dilate(points_raster, radius, false), radius, true);
     keep_largest(raster);
-    std::size_t inside = 0;
-    for (std::size_t c = 0; c < raster.cells.size(); ++c) inside += raster.cells[c] && points_raster.cells[c];
+    std::size_t marked = 0, inside = 0;
+    for (std::size_t c = 0; c < raster.cells.size(); ++c) {
+      marked += points_raster.cells[c];
+      inside += raster.cells[c] && points_raster.cells[c];
+    }
     if (10 * inside >= 9 * marked) break;
   }
   std::vector<Ring> rings = trace(raster);
