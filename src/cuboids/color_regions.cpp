@@ -149,6 +149,8 @@ void merge_sides(const std::map<std::pair<int, int>, Border>& borders, std::vect
 void absorb(ColorRegion& region, ColorRegion& other) {
   region.points.insert(region.points.end(), other.points.begin(), other.points.end());
   region.rim.insert(region.rim.end(), other.rim.begin(), other.rim.end());
+  region.others.push_back(other.tint);
+  region.others.insert(region.others.end(), other.others.begin(), other.others.end());
   other = {};
 }
 

@@ -14,6 +14,7 @@ struct ColorRegion {
   std::vector<int> points;
   std::vector<int> rim;  ///< what is blurred between it and others, and nearest to it
   Tint tint = Tint::Zero();  ///< mean of the points; where it has sides under different lights, of the first
+  std::vector<Tint> others{};  ///< of what was absorbed
 };
 
 /// Makes another region part of one; the other is empty then.

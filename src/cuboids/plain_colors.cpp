@@ -134,6 +134,17 @@ std::vector<Tint> tints_of_supports(const Observation& seen) {
   return tints;
 }
 
+/// Whether two regions have all the colours that there are, two or more: what parts them is printed on them too, as on a checked box.
+bool are_one_print(const std::vector<ColorRegion>& regions) {
+  const auto has = [](const ColorRegion& region, const Tint& tint) {
+    return !are_other_tints(region.tint, tint) || std::any_of(region.others.begin(), region.others.end(), [&](const Tint& own) { return !are_other_tints(own, tint); });
+  };
+  return 2 <= std::count_if(regions.begin(), regions.end(), [&](const ColorRegion& region) {
+    const bool is_printed = std::any_of(region.others.begin(), region.others.end(), [&](const Tint& own) { return are_other_tints(region.tint, own); });
+    return is_printed && std::all_of(regions.begin(), regions.end(), [&](const ColorRegion& other) { return has(region, other.tint); });
+  });
+}
+
 /// The boxes of plain colours that a part consists of; none if it does not. What has the colour of a support may be that: the picture may be shifted
 /// against the depth image, or of another scale.
 std::vector<ColorRegion> plain_boxes(const RgbdFrame& frame, const Observation& seen, std::span<const Tint> supports, std::span<const int> part, std::vector<int>& scratch) {
@@ -144,9 +155,10 @@ std::vector<ColorRegion> plain_boxes(const RgbdFrame& frame, const Observation& 
   if (regions.size() < 2 || samples.empty()) return {};
   const Directions directions{across_front(samples)};
   while (merge_print(seen, directions, regions)) std::erase_if(regions, [](const ColorRegion& region) { return region.points.empty(); });
+  if (regions.size() < 2 || are_one_print(regions)) return {};
   double off = 0;
   for (const ColorRegion& region : regions) off += off_box(seen, region);
-  if (regions.size() < 2 || off > kMostOff * static_cast<double>(part.size())) return {};
+  if (off > kMostOff * static_cast<double>(part.size())) return {};
   return regions;
 }
 

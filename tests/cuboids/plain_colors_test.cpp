@@ -80,9 +80,10 @@ TEST(PlainColors, PrintsAreNoBoxes) {
   const auto band = [](const Vec3& p, int) { return std::abs(p.x()) < 0.03 ? kBlue : kYellow; };
   const auto belt = [](const Vec3& p, int side) { return side != 5 && std::abs(p.z() - 0.12) < 0.02 ? kGreen : kRed; };
   const auto lid = [](const Vec3&, int side) { return side == 5 ? kBlue : kYellow; };
+  const auto checks = [](const Vec3& p, int) { return (std::abs(p.x()) < 0.03) == (std::abs(p.z() - 0.12) < 0.04) ? kBlue : kYellow; };
   const auto spots = [](const Vec3& p, int) { return std::fmod(p.x() + p.y() + 10.0, 0.02) < 0.01 ? kBlue : kYellow; };
   for (const auto& [name, paint] : std::initializer_list<std::pair<const char*, std::function<Color(const Vec3&, int)>>>{
-           {"label", label}, {"band", band}, {"belt", belt}, {"lid", lid}, {"spots", spots}}) {
+           {"label", label}, {"band", band}, {"belt", belt}, {"lid", lid}, {"checks", checks}, {"spots", spots}}) {
     const std::vector<Cuboid> cuboids = perceive(painted(scene, paint)).cuboids;
     ASSERT_EQ(cuboids.size(), 1u) << name;
     EXPECT_LT(size_error(cuboids[0].box, scene.boxes[0]), 0.01) << name;
