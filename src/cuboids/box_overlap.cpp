@@ -26,18 +26,24 @@ std::vector<BoxFace> faces_of(const OrientedBox& box) {
   return faces;
 }
 
+/// The part of a face that lies in the box with these sides.
+std::vector<Vec3> clipped(const BoxFace& face, const std::vector<BoxFace>& sides) {
+  const Vec3 u = face.half_u * face.u, v = face.half_v * face.v;
+  std::vector<Vec3> polygon = {face.center - u - v, face.center + u - v, face.center + u + v, face.center - u + v};
+  for (const BoxFace& side : sides)
+    polygon = clip_convex(polygon, [&](const Vec3& p) {
+      const double height = side.normal.dot(p - side.center);
+      return std::abs(height) <= kSame ? 0.0 : height;
+    });
+  return polygon;
+}
+
 /// Three times the volume over those faces of the intersection that lie on faces of `a`, seen from `from`.
 double cone_volume(const std::vector<BoxFace>& a, const std::vector<BoxFace>& b, const Vec3& from, bool skip_shared) {
   double sum = 0;
   for (const BoxFace& face : a) {
     if (skip_shared && std::any_of(b.begin(), b.end(), [&](const BoxFace& f) { return is_same(f, face); })) continue;
-    const Vec3 u = face.half_u * face.u, v = face.half_v * face.v;
-    std::vector<Vec3> polygon = {face.center - u - v, face.center + u - v, face.center + u + v, face.center - u + v};
-    for (const BoxFace& side : b)
-      polygon = clip_convex(polygon, [&](const Vec3& p) {
-        const double height = side.normal.dot(p - side.center);
-        return std::abs(height) <= kSame ? 0.0 : height;
-      });
+    const std::vector<Vec3> polygon = clipped(face, b);
     Vec3 twice = Vec3::Zero();
     for (std::size_t i = 2; i < polygon.size(); ++i)
       twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
@@ -81,6 +87,17 @@ double intersection_volume(const OrientedBox& a, const OrientedBox& b) {
   const auto faces_a = faces_of(a), faces_b = faces_of(b);
   const double three = cone_volume(faces_a, faces_b, a.center, false) + cone_volume(faces_b, faces_a, a.center, true);
   return std::max(0.0, three / 3.0);
+}
+
+std::vector<Vec3> intersection_corners(const OrientedBox& a, const OrientedBox& b) {
+  std::vector<Vec3> corners;
+  if (separation(a, b) >= 0) return corners;
+  const auto faces_a = faces_of(a), faces_b = faces_of(b);
+  for (const BoxFace& face : faces_a)
+    for (const Vec3& p : clipped(face, faces_b)) corners.push_back(p);
+  for (const BoxFace& face : faces_b)
+    for (const Vec3& p : clipped(face, faces_a)) corners.push_back(p);
+  return corners;
 }
 
 double intersection_over_union(const OrientedBox& a, const OrientedBox& b) {

@@ -2,12 +2,17 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <vector>
+
 #include "unseen/core/geometry.h"
 
 namespace unseen::cuboids {
 
 /// m, the largest gap between two boxes along any axis that can separate them; negative = by how much they overlap.
 double separation(const OrientedBox& a, const OrientedBox& b);
+
+/// Corners of the intersection of two boxes; none if they do not overlap.
+std::vector<Vec3> intersection_corners(const OrientedBox& a, const OrientedBox& b);
 
 /// A rectangle of a box: side `sign` (±1) of axis k.
 struct BoxFace {

@@ -8,6 +8,7 @@
 #include "cuboids/depth_noise.h"
 #include "cuboids/hypotheses.h"
 #include "cuboids/slabs.h"
+#include "cuboids/trims.h"
 #include "unseen/cuboids/cuboids.h"
 
 namespace unseen::cuboids {
@@ -138,7 +139,6 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
     assume_thickness(view, rooms, problem);
     close_hidden_gaps(rooms, problem);
     problem.hypotheses = propose_contacts(problem, rooms);
-    summary.counts.emplace_back("cuboids", result.cuboids.size());
     summary.counts.emplace_back("hypotheses", problem.hypotheses.size());
   }
   const Admissible admissible = [&](const Arrangement& a) {
@@ -168,9 +168,15 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   end_overlaps(view, problem, choice.held, arrangement);
   settle(problem, choice.held, arrangement, context);
   const std::vector<char> falls = hold_together(problem, choice.held, arrangement, context);
-  describe(problem, choice.held, arrangement, result);
-  warn_of_falls(falls, problem.push, result, context);
-  warn_of_free_space(view, problem.tolerance, result.cuboids, context);
+  Ending ending{problem, choice.held, falls, std::move(arrangement), result.cuboids};
+  drop_contained(view, ending);
+  result.cuboids = ending.cuboids;
+  for (std::size_t i = 0; i < result.cuboids.size(); ++i) result.cuboids[i].id = ending.problem.cuboids[i].id = static_cast<int>(result.supports.size() + i);
+  trim_overlaps(view, ending.problem, ending.held, ending.arrangement, context);
+  describe(ending.problem, ending.held, ending.arrangement, result);
+  warn_of_falls(ending.falls, problem.push, result, context);
+  warn_of_free_space(view, ending.problem.tolerance, result.cuboids, context);
+  summary.counts.emplace_back("cuboids", result.cuboids.size());
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {
     summary.status = Status::infeasible;

@@ -74,6 +74,38 @@ DepthView::Space DepthView::at(const Vec3& world) const {
   return measured < pixel.depth - tolerance ? Space::hidden : Space::surface;
 }
 
+Vec3 DepthView::point_at(int x, int y) const {
+  const double depth = depth_[static_cast<std::size_t>(y) * width_ + x];
+  if (camera_.width > 0) return T_world_camera_ * Vec3(depth * (x - camera_.cx) / camera_.fx, depth * (y - camera_.cy) / camera_.fy, depth);
+  const double azimuth = ((x + 0.5) / width_ - 0.5) * 2.0 * kPi, elevation = (0.5 - (y + 0.5) / height_) * kPi;
+  return T_world_camera_.translation + depth * Vec3(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+}
+
+std::vector<Vec3> DepthView::measured_in(const OrientedBox& box, double margin) const {
+  // The rectangle of the picture that the corners span; all of it where one is not in front of the camera.
+  int left = width_, right = -1, top = height_, bottom = -1;
+  for (int corner = 0; corner < 8 && camera_.width > 0; ++corner) {
+    const Vec3 sign(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
+    const Vec3 p = T_camera_world_ * (box.center + box.axes * sign.cwiseProduct(box.half_size + Vec3::Constant(margin)));
+    if (p.z() <= 1e-3) {
+      left = top = 0, right = width_ - 1, bottom = height_ - 1;
+      break;
+    }
+    const Vec2 place = camera_.project(p).cwiseMax(-1.0).cwiseMin(std::max(width_, height_));
+    left = std::min(left, static_cast<int>(std::floor(place.x()))), right = std::max(right, static_cast<int>(std::ceil(place.x())));
+    top = std::min(top, static_cast<int>(std::floor(place.y()))), bottom = std::max(bottom, static_cast<int>(std::ceil(place.y())));
+  }
+  if (camera_.width <= 0) left = top = 0, right = width_ - 1, bottom = height_ - 1;
+  std::vector<Vec3> points;
+  for (int y = std::max(top, 0); y <= std::min(bottom, height_ - 1); ++y)
+    for (int x = std::max(left, 0); x <= std::min(right, width_ - 1); ++x) {
+      if (!(depth_[static_cast<std::size_t>(y) * width_ + x] > 0.0f)) continue;
+      const Vec3 p = point_at(x, y);
+      if (((box.axes.transpose() * (p - box.center)).cwiseAbs() - box.half_size).maxCoeff() <= margin) points.push_back(p);
+    }
+  return points;
+}
+
 double DepthView::sigma(const Vec3& world) const {
   const double depth = project(world).depth;
   return noise_ * depth * depth;

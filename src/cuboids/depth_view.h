@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "unseen/core/geometry.h"
 #include "unseen/core/rgbd_frame.h"
 
 namespace unseen::cuboids {
@@ -24,6 +25,8 @@ class DepthView {
   DepthView(const RgbdFrame& frame, const RigidTransform& T_world_camera, double noise);
 
   Space at(const Vec3& world) const;
+  /// The measured points in a box, or within `margin` (m) of it.
+  std::vector<Vec3> measured_in(const OrientedBox& box, double margin) const;
   /// m: σ of a measurement at that place.
   double sigma(const Vec3& world) const;
   Vec3 viewpoint() const { return T_world_camera_.translation; }
@@ -36,6 +39,7 @@ class DepthView {
     int index = -1;    ///< into depth_, −1 = outside
   };
   Pixel project(const Vec3& world) const;
+  Vec3 point_at(int x, int y) const;
 
   Camera camera_;  ///< width 0 = all directions
   int width_ = 0, height_ = 0;

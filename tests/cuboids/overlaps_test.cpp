@@ -5,6 +5,8 @@
 
 #include "box_problems.h"
 #include "cuboids/complete.h"
+#include "cuboids/trims.h"
+#include "unseen/cuboids/evaluate.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -93,6 +95,70 @@ TEST(Overlaps, WithTheGroundBeyondItsOutlineEndUnlessHeld) {
   }
 }
 
+/// Two boxes, the fronts of which were seen in one plane, y = −0.1; they share x from 0 to 0.2.
+std::vector<OrientedBox> deep() { return {box({0, 0, 0.1}, {0.4, 0.2, 0.2}), box({0.15, 0.1, 0.1}, {0.3, 0.4, 0.2})}; }
+
+TEST(Trims, LeaveWhatWasMeasuredInABox) {
+  const std::vector<OrientedBox> boxes = deep();
+  const std::vector<Trim> trims = trims_of(view_of(2.9f), boxes, {0.006, 0.006}, {0, 1});
+  ASSERT_FALSE(trims.empty());
+  EXPECT_EQ(trims.front().cuboid, 0);  // the smaller one loses nothing else
+  EXPECT_EQ(trims.front().face, 1);
+  EXPECT_NEAR(trims.front().length, 0.2, 1e-9);
+  for (const Trim& trim : trims) EXPECT_FALSE(trim.cuboid == 1 && trim.face == 2);  // its front was measured where nothing else is
+}
+
+TEST(Trims, EndOverlapsOfRigidBodies) {
+  const Problem problem = problem_of(deep());
+  for (const bool rigid : {false, true}) {
+    Arrangement a = arrange(problem, {});
+    if (rigid) a.fix({1, 2});
+    const double before = intersection_volume(a.boxes[0], a.boxes[1]);
+    Context context;
+    trim_overlaps(view_of(2.9f), problem, std::vector<char>(3, 0), a, context);
+    EXPECT_NEAR(before, 0.008, 1e-9);
+    EXPECT_NEAR(intersection_volume(a.boxes[0], a.boxes[1]), rigid ? 0.0 : before, 1e-9);
+    EXPECT_NEAR(a.boxes[0].volume(), rigid ? 0.008 : 0.016, 1e-9);
+    EXPECT_EQ(a.fixed.size(), rigid ? 1u : 0u);
+  }
+}
+
+TEST(Trims, TakeNothingAwayFromWhatTouches) {
+  // A third one touches the first where its end would go.
+  for (const bool third : {false, true}) {
+    std::vector<OrientedBox> boxes = {box({0, 0, 0.1}, {0.4, 0.2, 0.2}), box({0.15, 0.15, 0.1}, {0.3, 0.4, 0.2})};
+    if (third) boxes.push_back(box({0.1, -0.15, 0.1}, {0.1, 0.1, 0.2}));
+    const Problem problem = problem_of(boxes);
+    Arrangement a = arrange(problem, {});
+    a.fix({1, 2});
+    Context context;
+    trim_overlaps(view_of(9.0f), problem, std::vector<char>(problem.bodies(), 0), a, context);
+    EXPECT_LT(intersection_volume(a.boxes[0], a.boxes[1]), 1e-9);
+    EXPECT_NEAR(2.0 * a.boxes[0].half_size.x(), third ? 0.4 : 0.2, 1e-9);
+  }
+}
+
+TEST(Trims, DropWhatLiesInAnotherBox) {
+  for (const bool known : {false, true}) {
+    Ending ending;
+    ending.problem = problem_of({box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.02, 0, 0.12}, {0.1, 0.1, 0.1}), box({0.15, 0, 0.1}, {0.1, 0.2, 0.2})});
+    if (known)
+      for (Cuboid& cuboid : ending.problem.cuboids) cuboid.label = std::to_string(&cuboid - ending.problem.cuboids.data());
+    ending.cuboids = ending.problem.cuboids;
+    ending.held = ending.falls = std::vector<char>(4, 0);
+    ending.arrangement = arrange(ending.problem, {});
+    ending.arrangement.fix({1, 2});
+    ending.arrangement.fix({2, 3});
+    drop_contained(view_of(2.9f), ending);
+    ASSERT_EQ(ending.cuboids.size(), known ? 3u : 2u);
+    if (known) continue;
+    EXPECT_EQ(ending.arrangement.fixed, (std::vector<std::array<int, 2>>{{1, 2}}));  // its link is that of the outer one
+    EXPECT_EQ(ending.arrangement.boxes.size(), 2u);
+    EXPECT_EQ(ending.held.size(), 3u);
+    EXPECT_EQ(ending.cuboids[0].visible_points, 2000u);
+  }
+}
+
 /// A post, and a box beside its upper end with 3 cm between them.
 Problem hung() { return problem_of({box({0, 0, 0.5}, {0.2, 0.2, 1.0}), box({0.23, 0, 0.8}, {0.2, 0.2, 0.2})}); }
 
@@ -107,6 +173,18 @@ TEST(Links, HoldWhatHangsWhereNobodyCouldSeeThem) {
   EXPECT_EQ(a.fixed[0], (std::array{1, 2}));
   EXPECT_EQ(held, (std::vector<char>{0, 0, 0}));
   EXPECT_TRUE(stands(problem, a, held));
+}
+
+TEST(Links, HoldNoLongRailFromFarOff) {
+  // 0.3 m from the post: a cube of 0.4 m is held, a thin rail as long is not.
+  for (const double thick : {0.4, 0.02}) {
+    const Problem problem = problem_of({box({0, 0, 0.5}, {0.8, 0.8, 1.0}), box({0.7 + 0.5 * thick, 0, 0.8}, {thick, 0.4, thick})});
+    Arrangement a = arrange(problem, {});
+    std::vector<char> held = {0, 0, 1};
+    Context context;
+    link_hanging(problem, view_of(1.0f), held, a, context);
+    EXPECT_EQ(a.fixed.size(), thick > 0.1 ? 1u : 0u) << thick;
+  }
 }
 
 TEST(Links, AreNotInFreeSpace) {
