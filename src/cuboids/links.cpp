@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <tuple>
 
 #include "cuboids/complete.h"
@@ -13,7 +12,6 @@ namespace {
 constexpr double kBorderPixels = 5.0;  // depth ends as far from the picture's border, or is not to be trusted there
 constexpr int kProjections = 100;
 constexpr int kSamples = 9;          // along a link
-constexpr double kStout = 2.0;        // edges of a cube of its volume: nothing holds a long rail half a metre off
 constexpr int kTrials = 200;         // links that may be tried
 constexpr double kFreeLink = 0.25;   // of them: speckle
 
@@ -38,9 +36,6 @@ std::array<Vec3, 2> nearest_points(const OrientedBox& a, const OrientedBox& b) {
   return {p, q};
 }
 
-/// m, to what may hold a box.
-double longest_link(const OrientedBox& box) { return std::min(2.0 * box.half_size.maxCoeff(), kStout * std::cbrt(box.volume())); }
-
 bool is_out_of_sight(const DepthView& view, const Vec3& p, const Vec3& q) {
   int free = 0;
   for (int i = 0; i < kSamples; ++i) free += view.at(p + (i + 0.5) / kSamples * (q - p)) == DepthView::Space::free;
@@ -57,8 +52,8 @@ std::vector<Link> links_of(const Problem& problem, const DepthView& view, const 
       const OrientedBox &box_a = arrangement.boxes[a - first], &box_b = arrangement.boxes[b - first];
       const auto [p, q] = nearest_points(box_a, box_b);
       double longest = problem.pair_tolerance(a, b);
-      if (hangs[a]) longest = std::max(longest, longest_link(box_a));
-      if (hangs[b]) longest = std::max(longest, longest_link(box_b));
+      if (hangs[a]) longest = std::max(longest, 2.0 * box_a.half_size.maxCoeff());
+      if (hangs[b]) longest = std::max(longest, 2.0 * box_b.half_size.maxCoeff());
       const double length = (p - q).norm();
       if (length <= longest && is_out_of_sight(view, p, q)) links.push_back({a, b, length});
     }

@@ -175,18 +175,6 @@ TEST(Links, HoldWhatHangsWhereNobodyCouldSeeThem) {
   EXPECT_TRUE(stands(problem, a, held));
 }
 
-TEST(Links, HoldNoLongRailFromFarOff) {
-  // 0.3 m from the post: a cube of 0.4 m is held, a thin rail as long is not.
-  for (const double thick : {0.4, 0.02}) {
-    const Problem problem = problem_of({box({0, 0, 0.5}, {0.8, 0.8, 1.0}), box({0.7 + 0.5 * thick, 0, 0.8}, {thick, 0.4, thick})});
-    Arrangement a = arrange(problem, {});
-    std::vector<char> held = {0, 0, 1};
-    Context context;
-    link_hanging(problem, view_of(1.0f), held, a, context);
-    EXPECT_EQ(a.fixed.size(), thick > 0.1 ? 1u : 0u) << thick;
-  }
-}
-
 TEST(Links, AreNotInFreeSpace) {
   const Problem problem = hung();
   Arrangement a = arrange(problem, {});
