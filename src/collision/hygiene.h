@@ -18,8 +18,8 @@ struct Repeats {
 };
 
 /// `change[k]` is the mean difference of frame k from frame k − 1: tiny against its neighbours' where it repeats that, or small at regular places. `brightness`: the
-/// frames' means.
-Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness);
+/// frames' means. `moved`: what of the change is more than compression makes, which tells where little moves.
+Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness, const std::vector<double>& moved = {});
 
 /// Spaces the frames of a conversion that are no repeats evenly, if the times were even; a repeat keeps the time of what it repeats. True if it did.
 bool share_out_times(const Repeats& repeats, std::vector<double>& times);

@@ -158,6 +158,21 @@ TEST(Hygiene, WhatChangesLessAtRegularPlacesMayBeNoConversion) {
   EXPECT_TRUE(find_repeats(single, even).doubled[62]);
 }
 
+// Little moves, and what compression changes hides where it does.
+TEST(Hygiene, WhatMovesTellsOfAConversionWhereCompressionHidesIt) {
+  for (const std::vector<double>& phases : {std::vector<double>{1, 0, 1, 0, 0}, {1, 0}, {1, 1, 1, 1, 0}}) {  // 24 to 60, 30 to 60, 24 to 30
+    Random random(5);
+    std::vector<double> change, moved = changes_by_phase(phases), light;
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      change.push_back(0.1 * moved[k] + random.uniform(0.02, 0.3) * (k % 4 == 3 ? 0.2 : 1.0));  // as every fourth frame is coded
+      light.push_back(100.0 + 0.1 * random.normal());
+    }
+    const Repeats found = find_repeats(change, light, moved);
+    ASSERT_FALSE(found.converted.empty()) << phases.size();
+    for (std::size_t k = 1; k < moved.size(); ++k) EXPECT_EQ(found.converted[k] != 0, phases[k % phases.size()] == 0) << k;
+  }
+}
+
 TEST(Hygiene, UnevenStampsAreUsedAndSaid) {
   Context context;
   const std::vector<double> even{0.0, 0.04, 0.08, 0.12}, uneven{0.0, 0.04, 0.08, 0.16, 0.2, 0.24}, broken{0.0, 0.04, 0.08, 0.0};
