@@ -18,7 +18,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kMostRatio = 50.0;  // of masses: beyond, the heavier body might as well be fixed
+constexpr double kMostRatio = 1000.0;  // of masses: beyond, the heavier body might as well be fixed
 
 /// The unknowns that nothing in the shot tells of, or that are given.
 std::vector<int> held_unknowns(const Problem& problem) {
