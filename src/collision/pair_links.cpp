@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/at_rest.h"
 #include "collision/mass_properties.h"
 #include "collision/meeting_in_space.h"
 
@@ -35,6 +36,14 @@ CurveSums sums_of(const Arc& arc) {
   CurveSums sums(arc.begin());
   for (const Candidate& c : arc.points) sums.add(c.u, c.pixel);
   return sums;
+}
+
+/// Whether the body is held where it is, until it flies as `after`.
+bool lies_until_hit(const Arc& before, const Curve& after) {
+  std::vector<Vec2> places;
+  for (const Candidate& c : before.points) places.push_back(c.pixel);
+  const double lasts = before.end() - before.begin();
+  return stands_still(places, 0.125 * after.curvature.norm() * lasts * lasts);
 }
 
 Joint joint_of(const Link& link, double u, double noise) { return joint_at(u, link.curve_before, link.curve_after, noise, link.diameter); }
@@ -140,6 +149,11 @@ Link link_of(const Arc& before, const Arc& after, double noise) {
   const double weight = 1.0 / (1.0 / (w[0] + w[1]) + kAlikeBent * kAlikeBent * shared.squaredNorm() / (noise * noise));
   link.curve_before = sums[0].fit(shared, weight);
   link.curve_after = sums[1].fit(shared, weight);
+  if (lies_until_hit(before, free[1])) {
+    constexpr double kStraight = 1e6;
+    link.curve_before = sums[0].fit(Vec2::Zero(), kStraight);
+    link.curve_after = free[1];
+  }
   link.end = before.end();
   link.begin = after.begin();
   link.diameter = std::max(typical_diameter(before.points), typical_diameter(after.points));
