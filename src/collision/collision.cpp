@@ -154,7 +154,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
     for (SolvedImpact& impact : impacts) {
       impact.uncertain = uncertainty(impact.solution, options.resamples, options.seed, context);
       weigh_common_error(impact.solution, impact.uncertain, options.resamples, options.seed, context);
-      impact.check = check_model(impact.solution, options.held_out, tracks.noise);
+      impact.check = check_model(impact.solution, options.held_out, tracks.noise, {shot.bodies[0].name, shot.bodies[1].name});
     }
   }
   if (impacts.empty()) {

@@ -17,7 +17,9 @@ TrackPoint point_of(const Candidate& c, int body, double fps) { return {body, c.
 }  // namespace
 
 double sighting_noise(const std::vector<std::vector<Candidate>>& bodies, double least) {
-  constexpr int kFarthest = 6;  // frames that four in a row may take
+  constexpr int kFarthest = 6;         // frames that four in a row may take
+  constexpr double kQuarter = 0.3186;  // σ that a quarter of normal noise is below
+  constexpr double kMuchLess = 0.4;    // the rest then has sightings that are simply wrong, of which one in four is enough
   std::vector<double> off;
   for (const auto& seen : bodies)
     for (std::size_t i = 3; i < seen.size(); ++i) {
@@ -25,7 +27,8 @@ double sighting_noise(const std::vector<std::vector<Candidate>>& bodies, double 
       const Vec2 d = off_any_flight({&seen[i - 3], &seen[i - 2], &seen[i - 1], &seen[i]});
       off.insert(off.end(), {std::abs(d.x()), std::abs(d.y())});
     }
-  return off.empty() ? least : std::max(least, 1.4826 * median(off));
+  const double usual = 1.4826 * median(off), smooth = quantile(off, 0.25) / kQuarter;
+  return std::max(least, smooth < kMuchLess * usual ? smooth : usual);
 }
 
 void add_flight(const std::vector<Candidate>& seen, std::size_t begin, std::size_t end, int body, double fps, Tracks& tracks) {

@@ -152,6 +152,17 @@ std::vector<double> steps_of(const std::vector<double>& stamps, double typical) 
 
 }  // namespace
 
+bool lasts_as_announced(const std::vector<double>& stamps, int announced, double fps) {
+  constexpr double kSlack = 2.5;  // frame times
+  const double step = typical_step(stamps, fps);
+  if (step == 0.0 || fps <= 0.0) return false;
+  const std::vector<double> steps = steps_of(stamps, step);
+  const bool uneven = std::any_of(steps.begin(), steps.end(), [](double s) { return std::abs(s - 1.0) > kUneven; });
+  const auto last = std::max_element(stamps.begin(), stamps.end()) - stamps.begin();  // those after it often have no stamp
+  const double lasts = (stamps[last] - stamps.front()) * static_cast<double>(stamps.size() - 1) / static_cast<double>(std::max<std::ptrdiff_t>(1, last));
+  return uneven && lasts + kSlack * std::max(step, 1.0 / fps) > announced / fps;
+}
+
 Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness, const std::vector<double>& moved) {
   Repeats repeats{doubled_frames(change), {}, 1.0};
   if (change.size() < 2 || flickers(change, brightness)) return repeats;

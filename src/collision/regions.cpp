@@ -123,7 +123,7 @@ void check_file(const Shot& shot, const io::Clip& clip, const Survey& survey, Co
   if (decoded - survey.first < 2)
     throw InputError(shot.name, "frames", fmt::format("{} frames in the video", decoded), fmt::format("more than {}", survey.first + 1));
   const bool to_the_end = !shot.frames || (*shot.frames)[1] >= decoded;
-  if (to_the_end && clip.announced() > decoded)
+  if (to_the_end && clip.announced() > decoded && !lasts_as_announced(survey.stamps, clip.announced(), clip.fps()))
     context.warn(fmt::format("{}: {} of {} announced frames could be decoded; the file may be cut short", shot.video, decoded, clip.announced()));
   if (clip.turn() % 360 != 0)
     context.warn(fmt::format("{}: the file asks to be turned by {}° clockwise, and is; if the picture stands on its head, set \"down\"", shot.video, clip.turn()));

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "collision/flight_cost.h"
 #include "collision/tracks.h"
 #include "collision/two_balls.h"
@@ -88,6 +90,28 @@ TEST(Counting, NoiseOfUnevenSightings) {
     seen.push_back(c);
   }
   EXPECT_NEAR(sighting_noise({seen}, 0.1), 0.7, 0.1);
+}
+
+// Of sightings of which every sixth is simply wrong, the noise is that of the others, and none of them counts as used.
+TEST(Counting, SightingsThatAreSimplyWrongAreNotUsed) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Meeting meeting{0.4, 25, 2, 60};
+    meeting.along = Vec3(1, 0.2, 0.1);
+    Shot shot = two_balls(meeting);
+    Random random(seed);
+    for (Sighting& s : shot.observations) {
+      s.pixel += 0.4 * Vec2(random.normal(), random.normal());
+      const double angle = random.uniform(0.0, 2.0 * kPi), far = random.uniform(60.0, 200.0);
+      if (random.uniform() < 0.18) s.pixel += far * Vec2(std::cos(angle), std::sin(angle));
+    }
+    Context context;
+    const Reconstruction r = reconstruct(shot, {}, context);
+    ASSERT_FALSE(r.residuals.empty());
+    for (const Residual& residual : r.residuals) EXPECT_FALSE(residual.used && (residual.seen - residual.predicted).norm() > 50.0) << residual.frame;
+    ASSERT_TRUE(r.restitution);
+    EXPECT_LE(r.restitution->low, kRestitution);
+    EXPECT_GE(r.restitution->high, kRestitution);
+  }
 }
 
 }  // namespace
