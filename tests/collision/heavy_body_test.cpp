@@ -13,11 +13,11 @@
 namespace unseen::collision::test {
 namespace {
 
-constexpr double kHit = 0.25, kLarge = 0.1, kSmall = 0.02, kBounciness = 0.7;  // s, m
+constexpr double kHit = 0.25, kLargeRadius = 0.1, kSmallRadius = 0.02, kBounciness = 0.7;  // s, m
 
 /// Both, as a tracker without labels sees them. `aside`: m that the large one flies nearer to the camera; more than both radii, and they miss.
 Shot large_and_small(double mass_ratio, double aside, std::uint64_t seed) {
-  Shot shot = pair_shot(kLarge, kSmall);
+  Shot shot = pair_shot(kLargeRadius, kSmallRadius);
   shot.fps = kFps;
   shot.camera = camera();
   Random random(seed);
@@ -30,8 +30,8 @@ Shot large_and_small(double mass_ratio, double aside, std::uint64_t seed) {
   for (int k = 0; k < 60; ++k) {
     const double t = k / kFps - kHit;
     const bool hit = t > 0.0 && aside == 0.0;
-    add(k, at - kLarge * n - Vec3(0, 0, aside) + t * (hit ? Vec3(large - impulse) : large) + 0.5 * t * t * g, kLarge);
-    add(k, at + kSmall * n + t * (hit ? Vec3(small + impulse / mass_ratio) : small) + 0.5 * t * t * g, kSmall);
+    add(k, at - kLargeRadius * n - Vec3(0, 0, aside) + t * (hit ? Vec3(large - impulse) : large) + 0.5 * t * t * g, kLargeRadius);
+    add(k, at + kSmallRadius * n + t * (hit ? Vec3(small + impulse / mass_ratio) : small) + 0.5 * t * t * g, kSmallRadius);
   }
   return shot;
 }
