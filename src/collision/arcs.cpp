@@ -187,13 +187,13 @@ double estimate_noise(const Candidates& candidates, double least) {
         for (const Candidate& c : some(k + 2))
           for (const Candidate& d : some(k + 3)) {
             if (!can_fly(a) || unlikeness(a, b) + unlikeness(b, c) + unlikeness(c, d) > kAlike) continue;
-            const double third = (d.pixel - 3.0 * c.pixel + 3.0 * b.pixel - a.pixel).norm();
+            const double third = off_any_flight({&a, &b, &c, &d}).norm();
             if (third < best) {
               best = third;
               moved = (d.pixel - a.pixel).norm();
             }
           }
-      if (best < 1e30 && moved > 4.0) values.push_back(best / std::sqrt(20.0) / std::sqrt(2.0));
+      if (best < 1e30 && moved > 4.0) values.push_back(best / std::sqrt(2.0));
     }
   if (values.size() < 4) return least;
   return std::max(least, quantile(std::move(values), 0.25) / 0.536);  // first quartile of a Rayleigh distribution, over √2

@@ -122,6 +122,19 @@ std::vector<Candidate> sightings_of(const Candidates& candidates, int body) {
   return all;
 }
 
+Vec2 off_any_flight(const std::array<const Candidate*, 4>& seen) {
+  Vec2 sum = Vec2::Zero();
+  double squares = 0.0;
+  for (const Candidate* c : seen) {
+    double weight = 1.0;
+    for (const Candidate* other : seen)
+      if (other != c) weight /= c->u - other->u;
+    sum += weight * c->pixel;
+    squares += weight * weight;
+  }
+  return sum / std::sqrt(squares);
+}
+
 double unlikeness(const Candidate& a, const Candidate& b) {
   if (a.body >= 0 && b.body >= 0 && a.body != b.body) return kCap;
   double sum = 0.0;

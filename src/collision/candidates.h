@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "collision/tracks.h"
@@ -22,6 +23,9 @@ struct Candidate {
   bool shadow = false;
   int body = -1;         ///< where it is labelled
   int region = -1;
+  int number = -1;       ///< of the frame in the file, where `frame` counts otherwise
+
+  int file_frame() const { return number < 0 ? frame : number; }
 };
 
 using Candidates = std::vector<std::vector<Candidate>>;  ///< by frame
@@ -35,6 +39,9 @@ Candidates candidates_of(const std::vector<Sighting>& sightings, const ShotCamer
 
 /// What is or may be a body, in order of time; nothing if a frame has two of it.
 std::vector<Candidate> sightings_of(const Candidates& candidates, int body);
+
+/// The third difference of four in order of time, which no flight has, over what noise of 1 px makes of it; unevenly spaced ones too.
+Vec2 off_any_flight(const std::array<const Candidate*, 4>& seen);
 
 /// How unlike two candidates look, in σ², capped.
 double unlikeness(const Candidate& a, const Candidate& b);

@@ -39,7 +39,7 @@ void warn_of_far_orientations(const Shot& shot, const Tracks& tracks, Context& c
   }
 }
 
-/// Why flights of sightings may not have been found: they are followed over a few frames that lack one.
+/// Why flights of sightings may not have been found, or tell little.
 void warn_of_far_sightings(const Shot& shot, double fps, Context& context) {
   constexpr double kFar = 2.5;
   std::set<int> frames;
@@ -47,8 +47,7 @@ void warn_of_far_sightings(const Shot& shot, double fps, Context& context) {
   std::vector<double> steps;
   for (auto it = frames.begin(); it != frames.end() && std::next(it) != frames.end(); ++it) steps.push_back(*std::next(it) - *it);
   if (const double step = median(std::move(steps)); step > kFar)
-    context.warn(fmt::format("{}: sightings are {:.0f} frames apart at {:.4g} frames a second, and flights are followed from frame to frame: count all frames by the sightings, with \"fps\" about {:.4g}",
-                             shot.name, step, fps, fps / step));
+    context.warn(fmt::format("{}: sightings are {:.0f} frames apart, {:.4g} a second: too few may be of one flight", shot.name, step, fps / step));
 }
 
 /// What is given and tells nothing.
@@ -155,7 +154,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
     for (SolvedImpact& impact : impacts) {
       impact.uncertain = uncertainty(impact.solution, options.resamples, options.seed, context);
       weigh_common_error(impact.solution, impact.uncertain, options.resamples, options.seed, context);
-      impact.check = check_model(impact.solution, options.held_out, tracks.noise);
+      impact.check = check_model(impact.solution, options.held_out, tracks.noise, {shot.bodies[0].name, shot.bodies[1].name});
     }
   }
   if (impacts.empty()) {

@@ -61,6 +61,12 @@ struct Teller {
   }
 };
 
+/// Whether the impulse on a body points down so much that what the body lies on pushes back.
+bool pressed_down(const State& state, int body) {
+  constexpr double kPressed = 0.1;  // of the impulse
+  return (body == 0 ? 1.0 : -1.0) * state.impulse.dot(state.down) > kPressed * state.impulse.norm();
+}
+
 /// What the data hardly tell, in words.
 std::vector<std::string> observability(const SolvedImpact& impact, const Shot& shot) {
   std::vector<std::string> remarks;
@@ -69,6 +75,7 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
   const auto sd = [&](int unknown) { return fit.covariance.size() ? std::sqrt(std::max(0.0, fit.covariance(unknown, unknown))) : 0.0; };
   for (int o = 0; o < (problem.fixed ? 1 : 2); ++o) {
     const std::string& name = shot.bodies[o].name;
+    if (!problem.flies(o, false)) remarks.push_back(fmt::format("{}: it lies still until it is hit; what it lies on is taken to push no more then{}", name, pressed_down(fit.state, o) ? ", though the impulse presses it down" : ""));
     const double depth = fit.state.p[o].z(), deviation = sd(kP + 3 * o + 2);
     if (deviation > 0.05 * depth) remarks.push_back(fmt::format("{}: its distance from the camera is known to {:.0f} % only: too little curvature by gravity", name, 100.0 * deviation / depth));
     const double along = sd(kV + 3 * o + 2), across = std::max(sd(kV + 3 * o), sd(kV + 3 * o + 1));

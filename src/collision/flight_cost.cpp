@@ -12,20 +12,23 @@
 namespace unseen::collision {
 namespace {
 
-TrackPoint point_of(const Candidate& c, int body, double fps) { return {body, c.frame, c.u / fps, c.pixel, c.diameter, c.region}; }
+TrackPoint point_of(const Candidate& c, int body, double fps) { return {body, c.file_frame(), c.u / fps, c.pixel, c.diameter, c.region}; }
 
 }  // namespace
 
 double sighting_noise(const std::vector<std::vector<Candidate>>& bodies, double least) {
+  constexpr int kFarthest = 6;         // frames that four in a row may take
+  constexpr double kQuarter = 0.3186;  // σ that a quarter of normal noise is below
+  constexpr double kMuchLess = 0.4;    // the rest then has sightings that are simply wrong, of which one in four is enough
   std::vector<double> off;
   for (const auto& seen : bodies)
     for (std::size_t i = 3; i < seen.size(); ++i) {
-      if (seen[i].frame - seen[i - 3].frame != 3) continue;
-      const Vec2 d = seen[i].pixel - 3.0 * seen[i - 1].pixel + 3.0 * seen[i - 2].pixel - seen[i - 3].pixel;
+      if (seen[i].frame - seen[i - 3].frame > kFarthest || seen[i].frame == seen[i - 1].frame) continue;
+      const Vec2 d = off_any_flight({&seen[i - 3], &seen[i - 2], &seen[i - 1], &seen[i]});
       off.insert(off.end(), {std::abs(d.x()), std::abs(d.y())});
     }
-  constexpr double kOfThirdDifferences = 4.4721;  // √20
-  return off.empty() ? least : std::max(least, 1.4826 * median(off) / kOfThirdDifferences);
+  const double usual = 1.4826 * median(off), smooth = quantile(off, 0.25) / kQuarter;
+  return std::max(least, smooth < kMuchLess * usual ? smooth : usual);
 }
 
 void add_flight(const std::vector<Candidate>& seen, std::size_t begin, std::size_t end, int body, double fps, Tracks& tracks) {

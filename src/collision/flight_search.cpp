@@ -9,7 +9,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
+constexpr double kWellExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
 
 /// An impact, by its frame time, and what flights that change there cost.
 struct Turn {
@@ -65,7 +65,7 @@ std::optional<Tracks> search_pair(const Shot& shot, const ShotCamera& camera, co
   const std::optional<double> none = still.settle_down([&] { return still.cost(bodies, 0, count, std::nullopt, fps); });
   std::optional<Turn> turn = find_turn(level, bodies, count, fps, context);
   if (const auto other = find_turn(still, bodies, count, fps, context); other && (!turn || other->cost < turn->cost)) turn = other;
-  if (!turn || turn->cost > kExplained * static_cast<double>(bodies[0].size() + bodies[1].size()) || (none && *none < turn->cost + kSignificant)) return std::nullopt;
+  if (!turn || turn->cost > kWellExplained * static_cast<double>(bodies[0].size() + bodies[1].size()) || (none && *none < turn->cost + kSignificant)) return std::nullopt;
   Tracks tracks;
   tracks.noise = sighting_noise(bodies, least_noise);
   Tracks::Meeting meeting{turn->u / fps, {}, {}};

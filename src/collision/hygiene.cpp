@@ -24,7 +24,8 @@ constexpr double kMostRepeats = 0.6;  // share of the frames
 constexpr double kAlike = 0.7;        // share of the largest change of a phase that the others of no repeat must show: what swings slows down first
 constexpr double kCaughtUp = 1.6;     // times as much changes after a repeat where a frame was lost instead
 constexpr double kTelling = 0.3;      // share of what most frames change by: less tells of no repeat
-constexpr double kFlicker = 0.5;      // share of the change that the light as a whole may make
+constexpr double kFlicker = 0.5;      // share of the change that the light as a whole may make, and
+constexpr double kLeastFlicker = 0.2;  // grey levels, less than which a moving body and compression make
 
 /// Whether all stamps are whole milliseconds.
 bool are_rounded(const std::vector<double>& stamps) {
@@ -93,6 +94,49 @@ Period repeats_of_period(const std::vector<double>& share, int period) {
   return found;
 }
 
+Period shortest_period(const std::vector<double>& share) {
+  for (int period = 2; period <= kLongestPeriod; ++period)
+    if (Period found = repeats_of_period(share, period); !found.repeats.empty()) return found;
+  return {};
+}
+
+/// Frames in which next to nothing changes.
+std::vector<char> doubled_frames(const std::vector<double>& change) {
+  std::vector<char> doubled(change.size(), 0);
+  for (int k = 1; k < static_cast<int>(change.size()); ++k) doubled[k] = change[k] < kRepeats * change_near(change, k);
+  return doubled;
+}
+
+/// Of the change nearby, what each frame shows; −1 where little changes all about, which tells nothing.
+std::vector<double> shares_of_neighbours(const std::vector<double>& change) {
+  std::vector<double> share(change.size(), -1.0);
+  const double most = quantile(change, 0.9);
+  for (int k = 1; k < static_cast<int>(change.size()); ++k)
+    if (const double near = change_near(change, k); near > kTelling * most) share[k] = change[k] / near;
+  return share;
+}
+
+/// Whether the light changes as a whole: lamps have periods of their own.
+bool flickers(const std::vector<double>& change, const std::vector<double>& brightness) {
+  std::vector<double> lighter;
+  for (std::size_t k = 1; k < brightness.size(); ++k) lighter.push_back(std::abs(brightness[k] - brightness[k - 1]));
+  return median(std::move(lighter)) > std::max(kLeastFlicker, kFlicker * median(change));
+}
+
+/// Marks what repeats in each period; where none takes the place of a lost frame, it is a conversion.
+void mark(const Period& period, Repeats& repeats) {
+  const std::size_t length = period.repeats.size();
+  if (period.even) {
+    repeats.converted.assign(repeats.doubled.size(), 0);
+    repeats.frames_each = static_cast<double>(length) / static_cast<double>(std::count(period.repeats.begin(), period.repeats.end(), 0));
+  }
+  for (std::size_t k = 1; k < repeats.doubled.size(); ++k) {
+    if (!period.repeats[k % length]) continue;
+    repeats.doubled[k] = 1;
+    if (period.even) repeats.converted[k] = 1;
+  }
+}
+
 /// Steps between frames, in frame times of the typical step. Containers leave some stamps out: what is between the two beside them is shared out.
 std::vector<double> steps_of(const std::vector<double>& stamps, double typical) {
   std::vector<double> steps(stamps.size() - 1, 1.0);
@@ -108,32 +152,24 @@ std::vector<double> steps_of(const std::vector<double>& stamps, double typical) 
 
 }  // namespace
 
-Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness) {
-  Repeats repeats{std::vector<char>(change.size(), 0), {}, 1.0};
-  if (change.size() < 2) return repeats;
-  std::vector<double> share(change.size(), -1.0), lighter;
-  const double most = quantile(change, 0.9);
-  for (int k = 1; k < static_cast<int>(change.size()); ++k) {
-    const double near = change_near(change, k);
-    repeats.doubled[k] = change[k] < kRepeats * near;
-    if (near > kTelling * most) share[k] = change[k] / near;
-    lighter.push_back(std::abs(brightness[k] - brightness[k - 1]));
-  }
-  if (median(std::move(lighter)) > kFlicker * median(change)) return repeats;  // lamps have periods of their own
-  for (int period = 2; period <= kLongestPeriod; ++period) {
-    const Period found = repeats_of_period(share, period);
-    if (found.repeats.empty()) continue;
-    if (found.even) {
-      repeats.converted.assign(change.size(), 0);
-      repeats.frames_each = static_cast<double>(period) / static_cast<double>(std::count(found.repeats.begin(), found.repeats.end(), 0));
-    }
-    for (std::size_t k = 1; k < change.size(); ++k) {
-      if (!found.repeats[k % period]) continue;
-      repeats.doubled[k] = 1;
-      if (found.even) repeats.converted[k] = 1;
-    }
-    break;
-  }
+bool lasts_as_announced(const std::vector<double>& stamps, int announced, double fps) {
+  constexpr double kSlack = 2.5;  // frame times
+  const double step = typical_step(stamps, fps);
+  if (step == 0.0 || fps <= 0.0) return false;
+  const std::vector<double> steps = steps_of(stamps, step);
+  const bool uneven = std::any_of(steps.begin(), steps.end(), [](double s) { return std::abs(s - 1.0) > kUneven; });
+  const auto last = std::max_element(stamps.begin(), stamps.end()) - stamps.begin();  // those after it often have no stamp
+  const double lasts = (stamps[last] - stamps.front()) * static_cast<double>(stamps.size() - 1) / static_cast<double>(std::max<std::ptrdiff_t>(1, last));
+  return uneven && lasts + kSlack * std::max(step, 1.0 / fps) > announced / fps;
+}
+
+Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness, const std::vector<double>& moved) {
+  Repeats repeats{doubled_frames(change), {}, 1.0};
+  if (change.size() < 2 || flickers(change, brightness)) return repeats;
+  Period period;
+  if (!moved.empty()) period = shortest_period(shares_of_neighbours(moved));
+  if (period.repeats.empty()) period = shortest_period(shares_of_neighbours(change));
+  if (!period.repeats.empty()) mark(period, repeats);
   return repeats;
 }
 

@@ -18,11 +18,14 @@ struct Repeats {
 };
 
 /// `change[k]` is the mean difference of frame k from frame k − 1: tiny against its neighbours' where it repeats that, or small at regular places. `brightness`: the
-/// frames' means.
-Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness);
+/// frames' means. `moved`: what of the change is more than compression makes, which tells where little moves.
+Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness, const std::vector<double>& moved = {});
 
 /// Spaces the frames of a conversion that are no repeats evenly, if the times were even; a repeat keeps the time of what it repeats. True if it did.
 bool share_out_times(const Repeats& repeats, std::vector<double>& times);
+
+/// Whether unevenly spaced frames take as long as so many even ones would: Matroska states a duration only, which is no number of frames then.
+bool lasts_as_announced(const std::vector<double>& stamps, int announced, double fps);
 
 /// Times of the frames, s, the first at 0: frame / fps where the time stamps are even or useless, else the stamps themselves, or, with
 /// `fps`, in its frame times. Warns of uneven stamps.

@@ -5,6 +5,7 @@
 #include "collision/candidates.h"
 #include "collision/chain.h"
 #include "collision/chain_search.h"
+#include "collision/counting.h"
 #include "collision/flight_cost.h"
 #include "collision/flight_search.h"
 #include "collision/tracks.h"
@@ -38,7 +39,10 @@ bool differ(const Candidates& a, const Candidates& b) {
 
 /// Labels the regions of a film; where nothing collides, with more of what is dark taken for bodies.
 Tracks label_regions(const Shot& shot, const ShotCamera& camera, const Footage& footage, bool spheres, Context& context) {
-  const auto tracks_of = [&](const Candidates& candidates, Context& heard) { return label(shot, camera, candidates, footage.fps, kLeastRegionNoise, heard); };
+  const auto tracks_of = [&](const Candidates& candidates, Context& heard) {
+    const Counted counted = without_repeats(candidates, footage.times, footage.fps);
+    return label(shot, camera, counted.candidates, counted.rate, kLeastRegionNoise, heard);
+  };
   const auto trial = [&] {
     Context quiet = context;
     quiet.on_message = {};
@@ -69,18 +73,18 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const Footage& fo
 }
 
 Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector<Sighting>& sightings, double fps, Context& context) {
-  const Candidates candidates = candidates_of(sightings, camera);
+  const auto [candidates, rate] = by_sightings(candidates_of(sightings, camera), fps);
   const int body = only_free_body(shot);
   if (body < 0) {
-    std::optional<Tracks> tracks = search_pair(shot, camera, candidates, fps, kLeastSightingNoise, context);
-    if (!tracks) tracks = label(shot, camera, candidates, fps, kLeastSightingNoise, context);
+    std::optional<Tracks> tracks = search_pair(shot, camera, candidates, rate, kLeastSightingNoise, context);
+    if (!tracks) tracks = label(shot, camera, candidates, rate, kLeastSightingNoise, context);
     tracks->told_apart = std::any_of(sightings.begin(), sightings.end(), [](const Sighting& s) { return s.body >= 0; });
     return *tracks;
   }
-  Tracks tracks = label(shot, camera, candidates, fps, kLeastSightingNoise, context);
+  Tracks tracks = label(shot, camera, candidates, rate, kLeastSightingNoise, context);
   if (tracks.meetings.empty()) {
     const std::vector<Candidate> seen = sightings_of(candidates, body);
-    if (std::optional<Tracks> found = search_chain(shot, camera, seen, body, fps, sighting_noise({seen}, kLeastSightingNoise), context)) return *found;
+    if (std::optional<Tracks> found = search_chain(shot, camera, seen, body, rate, sighting_noise({seen}, kLeastSightingNoise), context)) return *found;
   }
   return tracks;
 }

@@ -12,6 +12,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kRidge = 1e-4;  // per m/s: keeps a velocity that nothing was seen of small
+constexpr double kHeld = 1e6;    // the same of one that is none
 
 constexpr int kUnknownsOfFlights = LinearFlight::kUnknowns;
 using Row = Eigen::Matrix<double, 1, kUnknownsOfFlights>;  // P, V before, V after, delay
@@ -53,7 +54,7 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
     for (const PointObservation& point : problem.points) {
       if (point.body != body) continue;
       seen = true;
-      const double tau = point.time - time, half = 0.5 * tau * tau;
+      const double tau = problem.flies(body, point.after) ? point.time - time : 0.0, half = 0.5 * tau * tau;
       const Row z = coordinate(2, tau, point.after, solution);
       const double depth = round == 0 ? 1.0 : std::max(0.05, z * solution + half * g.z());
       const double focal[2] = {c.fx, c.fy}, seen_at[2] = {point.pixel.x() - c.cx, point.pixel.y() - c.cy};
@@ -82,8 +83,10 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
       system.add(last - ratio * first, -0.5 * g.z() * (t[1] * t[1] - ratio * t[0] * t[0]), 1.0 / (spread * spread));
     }
     for (int i = 3; i < 9; ++i) system.normal(i, i) += kRidge * kRidge;
+    if (!problem.flies(body, false))
+      for (const int i : {3, 4, 5}) system.normal(i, i) += kHeld;
     if (problem.planar)
-      for (const int i : {5, 8}) system.normal(i, i) += 1e6;
+      for (const int i : {5, 8}) system.normal(i, i) += kHeld;
     const Eigen::LDLT<Eigen::Matrix<double, kUnknownsOfFlights - 1, kUnknownsOfFlights - 1>> solver(system.normal.topLeftCorner<kUnknownsOfFlights - 1, kUnknownsOfFlights - 1>());  // at the time given
     if (!seen || solver.info() != Eigen::Success) return std::nullopt;
     solution.head<kUnknownsOfFlights - 1>() = solver.solve(system.right.head<kUnknownsOfFlights - 1>());
@@ -98,7 +101,7 @@ double misfit(const Problem& problem, const LinearFlight& flight, int body, doub
   std::array<double, 2> off_by_size = {}, count = {}, sigma = {};  // before and after: sizes of a flight are off together
   for (const PointObservation& seen : problem.points) {
     if (seen.body != body) continue;
-    const double tau = seen.time - time;
+    const double tau = problem.flies(body, seen.after) ? seen.time - time : 0.0;
     const Vec3 p = flight.p + tau * (seen.after ? flight.v_after : flight.v_before) + 0.5 * tau * tau * problem.gravity * problem.down;
     const double square = p.z() > 0.0 ? (problem.camera.project(p) - seen.pixel).squaredNorm() / (problem.pixel_sigma * problem.pixel_sigma) : 2.0 * kMostMisfit;
     sum += std::min(0.5 * square, kMostMisfit);

@@ -19,7 +19,7 @@ void add_flight(const Arc& arc, int body, double fps, Tracks& tracks) {
   const std::size_t first = tracks.points.size(), count = std::min(kMostPoints, arc.points.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Candidate& c = arc.points[(2 * i + 1) * arc.points.size() / (2 * count)];
-    tracks.points.push_back({body, c.frame, c.u / fps, c.pixel, c.diameter, c.region});
+    tracks.points.push_back({body, c.file_frame(), c.u / fps, c.pixel, c.diameter, c.region});
   }
   tracks.spans.push_back({body, first, tracks.points.size()});
 }

@@ -70,7 +70,7 @@ void add_span(Tracks& tracks, int body, const std::vector<Candidate>& points, do
   FlightSpan span{body, tracks.points.size(), tracks.points.size() + points.size()};
   for (const Candidate& c : points) {
     const bool sized = c.whole && c.diameter > 0.0 && std::abs(c.diameter - typical) < kOddSize * typical;
-    tracks.points.push_back({body, c.frame, c.u / fps, c.pixel, sized ? c.diameter : 0.0, c.region});
+    tracks.points.push_back({body, c.file_frame(), c.u / fps, c.pixel, sized ? c.diameter : 0.0, c.region});
   }
   tracks.spans.push_back(span);
 }

@@ -23,7 +23,9 @@ constexpr double kLeastNoise = 0.3;   // px: what regions of a compressed video 
 constexpr int kFewestLeft = 3;          // sightings of a flight, where some are held out
 constexpr double kMostStrain = 3.0;   // noise that contact and orientations may be off by in the mean
 constexpr double kFar = 5.0, kMedianOfNorm = 1.1774;  // noise; of normal noise in two dimensions
-constexpr double kMostOutliers = 0.2;  // of the sightings
+constexpr double kMostOutliers = 0.2;  // of the sightings, or
+constexpr double kMostScattered = 0.35;  // where those that follow each other are off
+constexpr double kScattered = 0.3;       // this little alike: what no model explains is off alike
 constexpr double kTrend = 0.7;        // neighbouring residuals that are so much alike are no noise
 constexpr double kTrendSize = 2.0;    // in noise: smaller trends do no harm
 
@@ -35,14 +37,27 @@ std::vector<Vec2> residuals(const Problem& problem, const State& state) {
   return all;
 }
 
+/// Whether sightings that are `out` and follow each other in a flight are off in directions of their own.
+bool are_scattered(const std::vector<PointObservation>& points, const std::vector<Vec2>& off, const std::vector<char>& out) {
+  double alike = 0.0, pairs = 0.0;
+  std::map<std::pair<int, bool>, std::size_t> last;
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    const auto [it, first] = last.try_emplace({points[i].body, points[i].after}, i);
+    if (!first && out[i] && out[it->second]) alike += off[i].normalized().dot(off[it->second].normalized()), pairs += 1.0;
+    it->second = i;
+  }
+  return alike <= kScattered * pairs;
+}
+
 /// Sightings that a tracker or a person got wrong: few, and far beyond what the others are off by.
-std::vector<char> outliers(const std::vector<Vec2>& off, double noise) {
+std::vector<char> outliers(const std::vector<PointObservation>& points, const std::vector<Vec2>& off, double noise) {
   std::vector<double> sizes;
   for (const Vec2& o : off) sizes.push_back(o.norm());
   const double far = kFar * std::max(noise, median(sizes) / kMedianOfNorm);
   std::vector<char> out;
   for (const Vec2& o : off) out.push_back(o.norm() > far);
-  if (static_cast<double>(std::count(out.begin(), out.end(), 1)) > kMostOutliers * static_cast<double>(off.size())) out.assign(off.size(), 0);
+  const double share = static_cast<double>(std::count(out.begin(), out.end(), 1)) / static_cast<double>(off.size());
+  if (share > (are_scattered(points, off, out) ? kMostScattered : kMostOutliers)) out.assign(off.size(), 0);
   return out;
 }
 
@@ -63,7 +78,7 @@ double rms(const std::vector<Vec2>& off, const ModelCheck& check, bool held_out)
 }
 
 /// Flights whose residuals go on alike from frame to frame, and are larger than the noise.
-std::vector<std::string> trends(const Problem& problem, const std::vector<Vec2>& off, const std::vector<char>& outlier, double noise) {
+std::vector<std::string> trends(const Problem& problem, const BodyNames& names, const std::vector<Vec2>& off, const std::vector<char>& outlier, double noise) {
   struct Sums {
     double square = 0, lag = 0;
     int count = 0;
@@ -83,7 +98,7 @@ std::vector<std::string> trends(const Problem& problem, const std::vector<Vec2>&
     if (sums.count < 6) continue;
     const double size = std::sqrt(sums.square / (2.0 * sums.count)) / noise;
     if (sums.lag / sums.square > kTrend && size > kTrendSize)
-      found.push_back(fmt::format("body {}'s flight {} the impact is no free flight: residuals of {:.1f} px go on alike from frame to frame", key.first + 1,
+      found.push_back(fmt::format("{}: its flight {} the impact is no free flight: residuals of {:.1f} px go on alike from frame to frame", names[static_cast<std::size_t>(key.first)],
                                   key.second ? "after" : "before", size * noise));
   }
   return found;
@@ -136,7 +151,7 @@ double held_out_chi2(const Problem& problem, const std::vector<Vec2>& off, const
 
 }  // namespace
 
-ModelCheck check_model(const Solution& solution, int every, double noise) {
+ModelCheck check_model(const Solution& solution, int every, double noise, const BodyNames& names) {
   ModelCheck check;
   const Problem& problem = solution.problem;
   check.held_out.assign(problem.points.size(), 0);
@@ -156,13 +171,13 @@ ModelCheck check_model(const Solution& solution, int every, double noise) {
     if (fit.usable) state = fit.state;
   }
   const std::vector<Vec2> off = residuals(problem, state);
-  if (!problem.filmed && !off.empty()) check.outlier = outliers(off, noise);
+  if (!problem.filmed && !off.empty()) check.outlier = outliers(problem.points, off, noise);
   check.used_rms = rms(residuals(problem, solution.fit.state), check, false);
   check.held_out_rms = rms(off, check, true);
   check.held_out_chi2 = held_out_chi2(problem, off, check, noise);
   if (check.held_out_chi2 > kMostChi2)
     check.reasons.push_back(fmt::format("frames that were held out are {:.1f} px off, where the tracks' own noise is {:.1f} px", check.held_out_rms, noise));
-  for (std::string& trend : trends(problem, off, check.outlier, noise)) check.reasons.push_back(std::move(trend));
+  for (std::string& trend : trends(problem, names, off, check.outlier, noise)) check.reasons.push_back(std::move(trend));
   const Estimate kept = energy_kept_of(problem, solution.fit);
   const auto strain = [&](const char* term) {
     const auto it = solution.fit.terms.find(term);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct ModelCheck {
   std::vector<std::string> reasons;  ///< why it does not fit, in words
 };
 
+using BodyNames = std::array<std::string, 2>;
+
 /// Solves once more without every `every`th frame and predicts those; looks for a trend along each flight. `noise` (px): of the tracks by themselves.
 /// The fit's covariance must be there: energy may grow within its noise.
-ModelCheck check_model(const Solution& solution, int every, double noise);
+ModelCheck check_model(const Solution& solution, int every, double noise, const BodyNames& names = {"the first body", "the second body"});
 
 }  // namespace unseen::collision

@@ -10,7 +10,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr std::size_t kFewest = 12;       // points, for eight unknowns
-constexpr double kFits = 1.5;             // noises: rms of what is left
+constexpr double kFitsOneFlight = 1.5;             // noises: rms of what is left
 constexpr double kLeastDepth = 0.4, kMostDepth = 2.5;  // of that in the middle: no flight comes as near, or goes as far
 constexpr int kIterations = 4;
 
@@ -66,7 +66,7 @@ bool is_one_flight(const std::vector<Candidate>& points, double noise) {
     squares += (at(q, times[i]) - places[i]).squaredNorm();
   }
   const double freedom = 2.0 * static_cast<double>(times.size()) - 8.0;
-  return scale * std::sqrt(squares / freedom) < kFits * noise;
+  return scale * std::sqrt(squares / freedom) < kFitsOneFlight * noise;
 }
 
 }  // namespace unseen::collision

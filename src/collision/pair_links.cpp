@@ -6,14 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/at_rest.h"
 #include "collision/mass_properties.h"
 #include "collision/meeting_in_space.h"
 
 namespace unseen::collision {
 namespace {
 
-constexpr double kLongestGap = 0.4;     // s between two flights of one body, behind something that hides the impact,
-constexpr double kFarthestGap = 0.5;    // or, if only flights in space tell, so many, and
+constexpr double kFarthestGap = 0.5;    // s, if only flights in space tell, and
 constexpr double kLongestFrames = 6.5;  // frame times at least
 constexpr double kLongestOverlap = 4.0;  // frame times
 constexpr double kLater = 2.0;          // frame times by which the flight after must begin and end later
@@ -38,31 +38,15 @@ CurveSums sums_of(const Arc& arc) {
   return sums;
 }
 
-Joint joint_of(const Link& link, double u, double noise) { return joint_at(u, link.curve_before, link.curve_after, noise, link.diameter); }
-
-Joint own_joint(const Link& link, double noise) { return join(link.curve_before, link.end, link.curve_after, link.begin, noise, link.diameter); }
-
-/// Pairs of arcs that can be one body's flights before and after an impact, `longest` frame times apart at most.
-std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest) {
-  const double gap = std::max(kLongestFrames, longest);
-  std::vector<Candidate> looks;
-  for (const Arc& arc : arcs) looks.push_back(looks_of(arc));
-  std::vector<Link> links;
-  for (std::size_t i = 0; i < arcs.size(); ++i)
-    for (std::size_t j = 0; j < arcs.size(); ++j) {
-      const double between = arcs[j].begin() - arcs[i].end();
-      if (i == j || between > gap || between < -kLongestOverlap) continue;
-      if (arcs[j].begin() < arcs[i].begin() + kLater || arcs[j].end() < arcs[i].end() + kLater || unlikeness(looks[i], looks[j]) > kUnlike) continue;
-      Link link = link_of(arcs[i], arcs[j], noise);
-      const Joint joint = own_joint(link, noise);
-      if (joint.apart > joint.tolerance) continue;
-      link.before = i;
-      link.after = j;
-      link.unlike = unlikeness(looks[i], looks[j]);
-      links.push_back(link);
-    }
-  return links;
+/// Whether the body is held where it is, until it flies as `after`.
+bool lies_until_hit(const Arc& before, const Curve& after) {
+  std::vector<Vec2> places;
+  for (const Candidate& c : before.points) places.push_back(c.pixel);
+  const double lasts = before.end() - before.begin();
+  return stands_still(places, 0.125 * after.curvature.norm() * lasts * lasts);
 }
+
+Joint joint_of(const Link& link, double u, double noise) { return joint_at(u, link.curve_before, link.curve_after, noise, link.diameter); }
 
 /// Whether nobody saw the impact for so long that parabolas of the picture do not lead there.
 bool is_unseen(const Link& a, const Link& b) { return std::max(a.begin - a.end, b.begin - b.end) > kLongestFrames; }
@@ -133,6 +117,29 @@ bool meet_in_the_picture(const Collision& c, double noise) {
 
 }  // namespace
 
+Joint own_joint(const Link& link, double noise) { return join(link.curve_before, link.end, link.curve_after, link.begin, noise, link.diameter); }
+
+std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest) {
+  const double gap = std::max(kLongestFrames, longest);
+  std::vector<Candidate> looks;
+  for (const Arc& arc : arcs) looks.push_back(looks_of(arc));
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    for (std::size_t j = 0; j < arcs.size(); ++j) {
+      const double between = arcs[j].begin() - arcs[i].end();
+      if (i == j || between > gap || between < -kLongestOverlap) continue;
+      if (arcs[j].begin() < arcs[i].begin() + kLater || arcs[j].end() < arcs[i].end() + kLater || unlikeness(looks[i], looks[j]) > kUnlike) continue;
+      Link link = link_of(arcs[i], arcs[j], noise);
+      const Joint joint = own_joint(link, noise);
+      if (joint.apart > joint.tolerance) continue;
+      link.before = i;
+      link.after = j;
+      link.unlike = unlikeness(looks[i], looks[j]);
+      links.push_back(link);
+    }
+  return links;
+}
+
 Link link_of(const Arc& before, const Arc& after, double noise) {
   Link link;
   const CurveSums sums[2] = {sums_of(before), sums_of(after)};
@@ -142,6 +149,11 @@ Link link_of(const Arc& before, const Arc& after, double noise) {
   const double weight = 1.0 / (1.0 / (w[0] + w[1]) + kAlikeBent * kAlikeBent * shared.squaredNorm() / (noise * noise));
   link.curve_before = sums[0].fit(shared, weight);
   link.curve_after = sums[1].fit(shared, weight);
+  if (lies_until_hit(before, free[1])) {
+    constexpr double kStraight = 1e6;
+    link.curve_before = sums[0].fit(Vec2::Zero(), kStraight);
+    link.curve_after = free[1];
+  }
   link.end = before.end();
   link.begin = after.begin();
   link.diameter = std::max(typical_diameter(before.points), typical_diameter(after.points));

@@ -28,7 +28,15 @@ struct Collision {
   std::array<std::size_t, 4> arcs() const { return {a.before, b.before, a.after, b.after}; }
 };
 
+constexpr double kLongestGap = 0.4;  ///< s between two flights of one body, behind something that hides the impact
+
 Link link_of(const Arc& before, const Arc& after, double noise);
+
+/// Where a link alone is nearest to closed.
+Joint own_joint(const Link& link, double noise);
+
+/// Pairs of arcs that can be one body's flights before and after an impact, `longest` frame times apart at most.
+std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest);
 
 /// The one time at which both links are nearest to closed; NaN if there is none that both allow.
 double common_time(const Link& a, const Link& b, double noise);

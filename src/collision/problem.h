@@ -69,6 +69,7 @@ struct Problem {
   std::optional<double> restitution;   ///< known
   std::array<double, 2> drag = {0, 0};  ///< 1/m
   bool planar = false;                 ///< gravity-free, all in one plane parallel to the image
+  std::array<bool, 2> rests = {false, false};  ///< the body lies still on something until it is hit, which pushes no further then
   std::vector<PointObservation> points;
   std::vector<SizeTrend> trends;
   std::vector<OrientationObservation> orientations;
@@ -81,6 +82,8 @@ struct Problem {
   Terms terms;
 
   double inverse_mass(double ratio) const { return fixed ? 0.0 : 1.0 / ratio; }
+  /// Whether a body is in free flight before, or after, the impact.
+  bool flies(int body, bool after) const { return after || !rests[body]; }
   /// Whether a body's turning is known from any observation.
   bool turns(int body) const;
   /// Whether a body's shape is known, and how it is turned as far as that matters.

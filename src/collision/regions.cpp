@@ -26,6 +26,7 @@ constexpr std::size_t kBatch = 8;      // frames
 constexpr double kOtherRate = 0.01;    // of the frame rate that the file states: worth a word
 constexpr double kBlack = 0.4;         // of the typical brightness: a frame that shows nothing
 constexpr double kNothing = 8.0;       // of 255, mean brightness: the same, where nothing else is known
+constexpr double kCompression = 12.0;  // grey levels that it changes what stands still by, at most
 constexpr double kFarMove = 0.06;      // of the picture's diagonal: more than hand-held
 constexpr double kLostMotion = 0.3;    // share of the frames
 constexpr double kEdgeSlack = 0.5;     // px, of a background that is moved
@@ -36,7 +37,7 @@ struct Survey {
   cv::Rect view;         ///< the part that is worked on
   int scale = 1;         ///< decoded pixels to one that is worked on
   int first = 0, last = 0;
-  std::vector<double> stamps, change, brightness;
+  std::vector<double> stamps, change, brightness, moved;
   FrameSample sample;    ///< of the view, scaled
   Stabiliser stabiliser;
 };
@@ -74,6 +75,14 @@ double change_between(const cv::Mat& before, const cv::Mat& after) {
   return std::min(cv::norm(after, before, cv::NORM_L1), cv::norm(as_bright, cv::NORM_L1)) / static_cast<double>(after.total());
 }
 
+/// The mean of what two pictures differ by beyond the noise of compression, grey levels.
+double moved_between(const cv::Mat& before, const cv::Mat& after) {
+  cv::Mat difference;
+  cv::absdiff(before, after, difference);
+  cv::subtract(difference, cv::Scalar(kCompression), difference);
+  return cv::mean(difference)[0];
+}
+
 /// First pass: time stamps, changes, the camera's motion, and frames for the background.
 Survey survey_clip(const Shot& shot, io::Clip& clip, Context& context) {
   Survey survey;
@@ -92,6 +101,7 @@ Survey survey_clip(const Shot& shot, io::Clip& clip, Context& context) {
     survey.stamps.push_back(clip.stamp());
     survey.brightness.push_back(cv::mean(gray)[0]);
     survey.change.push_back(before.empty() ? 0.0 : change_between(before, gray));
+    survey.moved.push_back(before.empty() ? 0.0 : moved_between(before, gray));
     const bool black = survey.brightness.back() < std::max(kNothing, kBlack * lit);
     if (!black && lit == 0.0) lit = survey.brightness.back();
     survey.stabiliser.add(gray, !black);
@@ -113,7 +123,7 @@ void check_file(const Shot& shot, const io::Clip& clip, const Survey& survey, Co
   if (decoded - survey.first < 2)
     throw InputError(shot.name, "frames", fmt::format("{} frames in the video", decoded), fmt::format("more than {}", survey.first + 1));
   const bool to_the_end = !shot.frames || (*shot.frames)[1] >= decoded;
-  if (to_the_end && clip.announced() > decoded)
+  if (to_the_end && clip.announced() > decoded && !lasts_as_announced(survey.stamps, clip.announced(), clip.fps()))
     context.warn(fmt::format("{}: {} of {} announced frames could be decoded; the file may be cut short", shot.video, decoded, clip.announced()));
   if (clip.turn() % 360 != 0)
     context.warn(fmt::format("{}: the file asks to be turned by {}° clockwise, and is; if the picture stands on its head, set \"down\"", shot.video, clip.turn()));
@@ -203,7 +213,7 @@ Footage find_regions(const Shot& shot, Context& context) {
   footage.height = survey.size.height;
   footage.fps = shot.fps.value_or(clip.fps());
   footage.times = frame_times(survey.stamps, clip.fps(), shot.fps, shot.video, context);
-  const Repeats found = find_repeats(survey.change, survey.brightness);
+  const Repeats found = find_repeats(survey.change, survey.brightness, survey.moved);
   footage.doubled = found.doubled;
   const bool converted = share_out_times(found, footage.times);
   footage.regions.resize(footage.times.size());

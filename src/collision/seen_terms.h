@@ -20,9 +20,10 @@ constexpr int kFlightParts = 10;
 
 /// A body's place at a time, from place and velocity at the impact, down, and the impact's time.
 template <class T>
-Vec3T<T> flown(const Problem& problem, int body, double time, const std::array<T, kFlightParts>& in) {
+Vec3T<T> flown(const Problem& problem, int body, bool after, double time, const std::array<T, kFlightParts>& in) {
   const PointState<T> start{Vec3T<T>(in[0], in[1], in[2]), Vec3T<T>(in[3], in[4], in[5])};
-  Vec3T<T> p = fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[body]), T(time) - in[9]).p;
+  Vec3T<T> p = start.p;
+  if (problem.flies(body, after)) p = fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[body]), T(time) - in[9]).p;
   constexpr double kNearest = 0.01;  // m: what a step takes behind the camera is far off, and nothing worse
   if (value_of(p.z()) < kNearest) p.z() = T(kNearest);
   return p;
@@ -49,7 +50,7 @@ struct PointTerm : Base {
   auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
-    const Vec3T<T> p = flown<T>(problem, seen.body, seen.time, in);
+    const Vec3T<T> p = flown<T>(problem, seen.body, seen.after, seen.time, in);
     for (const int axis : {0, 1}) r[axis] = off_along<T>(axis, problem, seen, p);
   }
 };
@@ -63,7 +64,7 @@ struct FlatPointTerm : Base {
   auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
-    const T off = off_along<T>(axis, problem, seen, flown<T>(problem, seen.body, seen.time, in));
+    const T off = off_along<T>(axis, problem, seen, flown<T>(problem, seen.body, seen.after, seen.time, in));
     *r = flat_residual(off, problem.noise_power);
   }
 };
@@ -77,7 +78,7 @@ struct DepthTerm : Base {
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     using std::log;
-    const Vec3T<T> p = flown<T>(problem, seen.body, seen.time, in);
+    const Vec3T<T> p = flown<T>(problem, seen.body, seen.after, seen.time, in);
     r[0] = log(p.z() / seen.depth) / seen.depth_sigma;
   }
 };
@@ -91,7 +92,7 @@ struct TrendTerm : Base {
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     using std::log;
-    r[0] = (log(flown<T>(problem, seen.body, seen.end, in).z() / flown<T>(problem, seen.body, seen.begin, in).z()) - seen.change) / seen.sigma;
+    r[0] = (log(flown<T>(problem, seen.body, seen.after, seen.end, in).z() / flown<T>(problem, seen.body, seen.after, seen.begin, in).z()) - seen.change) / seen.sigma;
   }
 };
 

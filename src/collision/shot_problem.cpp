@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "collision/at_rest.h"
 #include "collision/size_trend.h"
 #include "unseen/core/error.h"
 
@@ -91,6 +92,7 @@ Problem problem_of(const Shot& shot, const Options& options, const ShotCamera& c
     for (int o = 0; o < 2; ++o) problem.drag[o] = drag_of(shot.bodies[o], solids[o], options.drag_coefficient);
   for (const int span : meeting.before) add_points(tracks, span, false, camera, solids, problem);
   for (const int span : meeting.after) add_points(tracks, span, true, camera, solids, problem);
+  problem.rests = at_rest(problem);
   if (problem.planar && shot.metres_per_pixel)
     for (PointObservation& p : problem.points) p.depth = camera.camera.fx * *shot.metres_per_pixel, p.depth_sigma = 1e-3;
   if (!problem.planar && (problem.filmed || problem.fixed)) problem.trends = size_trends(problem);  // of two bodies momentum tells more

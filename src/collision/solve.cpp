@@ -18,7 +18,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kMostRatio = 50.0;  // of masses: beyond, the heavier body might as well be fixed
+constexpr double kMostRatio = 1000.0;  // of masses: beyond, the heavier body might as well be fixed
 
 /// The unknowns that nothing in the shot tells of, or that are given.
 std::vector<int> held_unknowns(const Problem& problem) {
@@ -31,6 +31,7 @@ std::vector<int> held_unknowns(const Problem& problem) {
   for (int o = 0; o < 2; ++o) {
     const bool still = o == 1 && problem.fixed;
     if (still) hold(kP + 3 * o, 3), hold(kV + 3 * o, 3);
+    if (!problem.flies(o, false)) hold(kV + 3 * o, 3);
     if (still || !problem.turns(o)) hold(kTurn + 3 * o, 3), hold(kH + 3 * o, 3);
     if (!problem.terms.soft || still) hold(kVAfter + 3 * o, 3);
     if (!problem.terms.soft || still || !problem.turns(o)) hold(kHAfter + 3 * o, 3);

@@ -82,7 +82,7 @@ std::vector<State> start_states(const Problem& problem, double time, int count) 
   if (!fly_around(problem, time)) return {};
   for (int o = 0; o < (problem.fixed ? 1 : 2); ++o) {
     base.p[o] = flights[o].p;
-    base.v[o] = flights[o].v_before;
+    base.v[o] = problem.flies(o, false) ? flights[o].v_before : Vec3(Vec3::Zero());
     base.v_after[o] = flights[o].v_after;
   }
   base.impulse = base.v_after[0] - base.v[0];

@@ -93,7 +93,7 @@ TouchingFit::Result TouchingFit::operator()(const Touching& touching, const Turn
   s.v_after = {s.v[0] + impulse, s.v[1] - inverse * impulse};
   s.time = base_.time + z[kDelay];
   for (int o = 0; o < 2; ++o) {  // the velocities are those at the time that the flights were written for
-    s.v[o] += problem_.gravity * base_.down * z[kDelay];
+    s.v[o] = problem_.flies(o, false) ? Vec3(s.v[o] + problem_.gravity * base_.down * z[kDelay]) : Vec3(Vec3::Zero());
     s.v_after[o] += problem_.gravity * base_.down * z[kDelay];
   }
   s.x = s.p[0] + touching.arm_a;

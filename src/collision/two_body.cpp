@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "collision/arcs.h"
+#include "collision/heavy_body.h"
 #include "collision/meetings.h"
 #include "collision/pair_links.h"
 
@@ -176,7 +177,10 @@ Tracks find_pair(const Shot& shot, const ShotCamera& camera, const Candidates& c
   std::vector<Arc> arcs = find_arcs(candidates, noise, jitter, context);
   if (arcs.size() > kMostArcs) arcs.resize(kMostArcs);
   const std::vector<Collision> found = find_collisions(shot, camera, candidates, arcs, noise, fps);
-  if (found.empty()) return without_collision(shot, arcs, fps);
+  if (found.empty()) {
+    const std::optional<HeavyHits> hits = find_heavy_hits(shot, candidates, arcs, noise, jitter, fps, context);
+    return hits ? with_collision(shot, candidates, hits->arcs, hits->found, noise, fps) : without_collision(shot, arcs, fps);
+  }
   return with_collision(shot, candidates, arcs, found, noise, fps);
 }
 

@@ -118,7 +118,7 @@ T kinetic_energy(const Problem& problem, const StateT<T>& s, bool after) {
 /// Where body `o` is at `time`, on the flight before or after the impact.
 template <class T>
 Vec3T<T> position_at(const Problem& problem, const StateT<T>& s, int o, bool after, double time) {
-  if (o == 1 && problem.fixed) return s.p[1];
+  if ((o == 1 && problem.fixed) || !problem.flies(o, after)) return s.p[o];
   const PointState<T> start{s.p[o], after ? s.v_after[o] : s.v[o]};
   return fly<T>(start, s.down * T(problem.gravity), T(problem.drag[o]), T(time) - s.time).p;
 }

@@ -96,6 +96,19 @@ TEST(Hygiene, ATruncatedFileGivesAWarning) {
   EXPECT_TRUE(warned(context, "announced"));
 }
 
+// A file of Matroska whose frames are 1/120 s to 1/30 s apart, and as many announced as there would be at 120 a second.
+TEST(Hygiene, UnevenFramesThatLastAsLongAsAnnouncedAreNotCutShort) {
+  std::vector<double> stamps = {0.0};
+  for (int k = 1; k < 60; ++k) stamps.push_back(stamps.back() + (k % 3 ? 1 : 4) / 120.0);
+  EXPECT_TRUE(lasts_as_announced(stamps, 117, 120.0));
+  std::fill(stamps.end() - 4, stamps.end(), 0.0);  // the last ones often have none
+  EXPECT_TRUE(lasts_as_announced(stamps, 117, 120.0));
+  EXPECT_FALSE(lasts_as_announced(stamps, 200, 120.0));  // cut short
+  std::vector<double> even;
+  for (int k = 0; k < 60; ++k) even.push_back(k / 30.0);
+  EXPECT_FALSE(lasts_as_announced(even, 61, 30.0));  // a frame that could not be decoded
+}
+
 /// Matroska knows milliseconds only: 600 frames a second are steps of 1 and 2.
 TEST(Hygiene, StampsInWholeMillisecondsAreEven) {
   for (const double fps : {240.0, 480.0, 600.0, 720.0, 960.0, 1000.0}) {
@@ -156,6 +169,21 @@ TEST(Hygiene, WhatChangesLessAtRegularPlacesMayBeNoConversion) {
   std::vector<double> single = changes_by_phase({1, 1, 1, 1, 1, 0.2});
   single[62] = 0.0;  // a frame of its own
   EXPECT_TRUE(find_repeats(single, even).doubled[62]);
+}
+
+// Little moves, and what compression changes hides where it does.
+TEST(Hygiene, WhatMovesTellsOfAConversionWhereCompressionHidesIt) {
+  for (const std::vector<double>& phases : {std::vector<double>{1, 0, 1, 0, 0}, {1, 0}, {1, 1, 1, 1, 0}}) {  // 24 to 60, 30 to 60, 24 to 30
+    Random random(5);
+    std::vector<double> change, moved = changes_by_phase(phases), light;
+    for (std::size_t k = 0; k < moved.size(); ++k) {
+      change.push_back(0.1 * moved[k] + random.uniform(0.02, 0.3) * (k % 4 == 3 ? 0.2 : 1.0));  // as every fourth frame is coded
+      light.push_back(100.0 + 0.1 * random.normal());
+    }
+    const Repeats found = find_repeats(change, light, moved);
+    ASSERT_FALSE(found.converted.empty()) << phases.size();
+    for (std::size_t k = 1; k < moved.size(); ++k) EXPECT_EQ(found.converted[k] != 0, phases[k % phases.size()] == 0) << k;
+  }
 }
 
 TEST(Hygiene, UnevenStampsAreUsedAndSaid) {

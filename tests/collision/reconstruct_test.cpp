@@ -11,6 +11,7 @@
 #include "collision/tracks.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
+#include "unseen/core/error.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <set>
 
 #include "collision/arcs.h"
@@ -85,6 +86,36 @@ TEST(Chain, EveryBounceAtItsTime) {
       for (const double t : motion.impacts)
         EXPECT_FALSE(tracks.points[span.begin].time < t - 0.2 / kFps && tracks.points[i].time > t + 0.2 / kFps);
     }
+}
+
+// 24 frames a second in 60: one and two by turns repeat the frame before.
+TEST(Chain, AConvertedFilmIsFollowedByItsOwnFrames) {
+  Bouncing motion;
+  Footage footage;
+  footage.width = 1280, footage.height = 720, footage.fps = 60;
+  for (int k = 0; k < 90; ++k) {
+    const int own = 2 * (k / 5) + (k % 5 >= 2 ? 1 : 0);
+    footage.times.push_back(own / 24.0);
+    footage.doubled.push_back(k % 5 == 1 || k % 5 > 2);
+    Region region;
+    region.frame = k;
+    region.centroid = Vec2(640, 360) + kPixels * motion.at(own / 24.0);
+    region.diameter = region.circle = 30;
+    region.area = 0.25 * kPi * 900;
+    region.box = {static_cast<int>(region.centroid.x()) - 15, static_cast<int>(region.centroid.y()) - 15, 31, 31};
+    region.mask = cv::Mat::zeros(31, 31, CV_8U);
+    cv::circle(region.mask, {15, 15}, 15, cv::Scalar(255), cv::FILLED);
+    footage.regions.push_back({region});
+  }
+  motion.at(1.4);
+  Context context;
+  Shot shot = chain_shot();
+  shot.video = "converted.mp4";
+  const Tracks tracks = find_tracks(shot, camera(), footage, context);
+  ASSERT_GE(tracks.meetings.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(tracks.meetings[i].time, motion.impacts[i], 0.01) << i;
+  for (const TrackPoint& p : tracks.points) EXPECT_NEAR(p.time, footage.times[static_cast<std::size_t>(p.frame)], 1e-9);
+  EXPECT_TRUE(context.take_warnings().empty());
 }
 
 // In a few frames a shaded side of the ball passes for background: the outline is smaller there, and its centre is off.
