@@ -3,6 +3,8 @@
 #include "collision/at_rest.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "unseen/core/quantile.h"
 
@@ -15,13 +17,17 @@ constexpr double kOfFall = 1.0 / 6.0;     // of the fall; of a flight this share
 
 }  // namespace
 
-bool stands_still(const std::vector<Vec2>& places, double fall) {
+bool stands_still(const std::vector<Vec2>& places, const std::vector<double>& times, double acceleration) {
   if (places.size() < kFewestAtRest) return false;
   std::vector<double> x, y, off;
   for (const Vec2& p : places) x.push_back(p.x()), y.push_back(p.y());
   const Vec2 place(median(std::move(x)), median(std::move(y)));
   for (const Vec2& p : places) off.push_back((p - place).norm());
-  return quantile(std::move(off), kMostAtRest) < kOfFall * fall;
+  const double reach = quantile(off, kMostAtRest);
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (off[i] <= reach) first = std::min(first, times[i]), last = std::max(last, times[i]);
+  return reach < kOfFall * 0.125 * acceleration * (last - first) * (last - first);  // between the ends and the middle
 }
 
 std::array<bool, 2> at_rest(const Problem& problem) {
@@ -36,11 +42,20 @@ std::array<bool, 2> at_rest(const Problem& problem) {
       depths.push_back(p.depth);
       times.push_back(p.time);
     }
-    if (places.empty()) continue;
+    if (places.size() < kFewestAtRest) continue;
     const auto [first, last] = std::minmax_element(times.begin(), times.end());
     const double lasts = *last - *first;
-    rests[static_cast<std::size_t>(body)] = stands_still(places, 0.125 * problem.gravity * lasts * lasts * problem.camera.fy / median(std::move(depths)));
+    std::vector<double> early, late;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      if (times[i] < *first + lasts / 3) early.push_back(depths[i]);
+      else if (times[i] > *last - lasts / 3) late.push_back(depths[i]);
+    const double nearer = std::abs(median(std::move(early)) - median(std::move(late)));
+    const Vec3 ray = problem.camera.unproject(places.front().x(), places.front().y(), 1.0).normalized();
+    const double across = problem.down.cross(ray).norm();
+    rests[static_cast<std::size_t>(body)] = nearer < kOfFall * problem.gravity * lasts * lasts  // half of what a fall along the view makes of it
+                                            && stands_still(places, times, problem.gravity * across * problem.camera.fy / median(std::move(depths)));
   }
+  if (rests[0] && rests[1]) rests = {false, false};
   return rests;
 }
 

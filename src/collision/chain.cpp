@@ -125,9 +125,12 @@ std::vector<Candidate> follow(const Candidates& candidates, const std::vector<Ar
   return track;
 }
 
-void warn_of(const TimeGaps& gaps, const Shot& shot, Context& context) {
+void warn_of(const TimeGaps& gaps, const std::vector<Candidate>& track, const Shot& shot, Context& context) {
   std::string places;
-  for (const auto& gap : gaps.gaps) places += fmt::format("{}{}", places.empty() ? "" : ", ", gap.after);
+  for (const auto& gap : gaps.gaps) {
+    const auto at = std::find_if(track.begin(), track.end(), [&](const Candidate& c) { return c.frame == gap.after; });
+    places += fmt::format("{}{}", places.empty() ? "" : ", ", at == track.end() ? gap.after : at->file_frame());
+  }
   if (gaps.period)
     context.warn(fmt::format("{}: one frame in {} was dropped (seen after frames {}): the clip was thinned to a lower rate; times are "
                              "corrected, the clip's duration is kept", shot.name, *gaps.period + 1, places));
@@ -144,7 +147,7 @@ void correct_times(std::vector<Candidate>& track, double noise, const Shot& shot
   for (Candidate& c : spaced) c.u = plain.corrected(c.frame, c.u);
   if (const auto gravity = shared_gravity(split_into_flights(spaced, noise, {}, context), spaced, noise)) gaps = find_time_gaps(track, noise, gravity);
   if (gaps.gaps.empty()) return;
-  warn_of(gaps, shot, context);
+  warn_of(gaps, track, shot, context);
   for (Candidate& c : track) c.u = gaps.corrected(c.frame, c.u);
 }
 

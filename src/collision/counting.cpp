@@ -50,7 +50,7 @@ Counted by_sightings(const Candidates& candidates, double fps) {
   if (step < 2.0) return {candidates, fps};
   std::vector<int> places(candidates.size(), -1);
   for (std::size_t i = 0; i < seen.size(); ++i)
-    places[seen[i]] = i == 0 ? 0 : places[seen[i - 1]] + std::max(1, static_cast<int>(std::lround(static_cast<double>(seen[i] - seen[i - 1]) / step)));
+    places[seen[i]] = i == 0 ? static_cast<int>(std::lround(static_cast<double>(seen[0]) / step)) : places[seen[i - 1]] + std::max(1, static_cast<int>(std::lround(static_cast<double>(seen[i] - seen[i - 1]) / step)));
   return counted(candidates, step, fps, [&](std::size_t k) { return places[k]; });
 }
 

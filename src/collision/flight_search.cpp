@@ -9,7 +9,7 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kWellExplained = 2.0;   // ½ χ² a sighting, 1 in the mean
+constexpr double kWellExplained = 2.0;  // ½ χ² a sighting, 1 in the mean
 
 /// An impact, by its frame time, and what flights that change there cost.
 struct Turn {

@@ -56,11 +56,6 @@ bool can_push(const Push& push, const Link& heavy, double touching, double noise
   return joint.change.norm() < kSeenChange * sigma || joint.change.dot(change) < kAgainst * joint.change.norm() * change.norm();
 }
 
-/// Points of an arc that are one body alone, beside the `other`.
-std::ptrdiff_t alone_in(const Arc& arc, const Link& other, const Candidates& candidates) {
-  return std::count_if(arc.points.begin(), arc.points.end(), [&](const Candidate& c) { return !is_both(c, other, candidates); });
-}
-
 }  // namespace
 
 std::optional<HeavyHits> find_heavy_hits(const Shot& shot, const Candidates& candidates, const std::vector<Arc>& arcs, double noise, double jitter, double fps,
@@ -88,7 +83,7 @@ std::optional<HeavyHits> find_heavy_hits(const Shot& shot, const Candidates& can
         Collision hit{light.link, heavy, u, 0.0};
         bool alone = true;
         for (const std::size_t k : hit.arcs()) {
-          const std::ptrdiff_t points = alone_in(hits.arcs[k], k < 2 ? heavy : light.link, candidates);
+          const std::ptrdiff_t points = count_alone(hits.arcs[k], k < 2 ? heavy : light.link, candidates);
           alone = alone && points >= kFewestOfSide;
           hit.score += static_cast<double>(points);
         }

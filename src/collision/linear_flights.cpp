@@ -12,7 +12,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kRidge = 1e-4;  // per m/s: keeps a velocity that nothing was seen of small
-constexpr double kHeld = 1e6;    // the same of one that is none
+constexpr double kHeld = 1e6;    // the square of such a weight, of a velocity that is none
 
 constexpr int kUnknownsOfFlights = LinearFlight::kUnknowns;
 using Row = Eigen::Matrix<double, 1, kUnknownsOfFlights>;  // P, V before, V after, delay
@@ -77,7 +77,7 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
     }
     for (const SizeTrend& trend : problem.trends) {
       if (trend.body != body || !problem.terms.size || round == 0) continue;
-      const double t[2] = {trend.begin - time, trend.end - time}, ratio = std::exp(trend.change);
+      const double flies = problem.flies(body, trend.after) ? 1.0 : 0.0, t[2] = {flies * (trend.begin - time), flies * (trend.end - time)}, ratio = std::exp(trend.change);
       const Row first = coordinate(2, t[0], trend.after, solution), last = coordinate(2, t[1], trend.after, solution);
       const double depth = std::max(0.05, last * solution + 0.5 * t[1] * t[1] * g.z()), spread = depth * trend.sigma;
       system.add(last - ratio * first, -0.5 * g.z() * (t[1] * t[1] - ratio * t[0] * t[0]), 1.0 / (spread * spread));

@@ -46,7 +46,7 @@ bool are_scattered(const std::vector<PointObservation>& points, const std::vecto
     if (!first && out[i] && out[it->second]) alike += off[i].normalized().dot(off[it->second].normalized()), pairs += 1.0;
     it->second = i;
   }
-  return alike <= kScattered * pairs;
+  return pairs > 0.0 && alike <= kScattered * pairs;
 }
 
 /// Sightings that a tracker or a person got wrong: few, and far beyond what the others are off by.

@@ -10,7 +10,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr std::size_t kFewest = 12;       // points, for eight unknowns
-constexpr double kFitsOneFlight = 1.5;             // noises: rms of what is left
+constexpr double kFitsOneFlight = 1.5;    // noises: rms of what is left
 constexpr double kLeastDepth = 0.4, kMostDepth = 2.5;  // of that in the middle: no flight comes as near, or goes as far
 constexpr int kIterations = 4;
 

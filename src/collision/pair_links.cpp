@@ -41,9 +41,9 @@ CurveSums sums_of(const Arc& arc) {
 /// Whether the body is held where it is, until it flies as `after`.
 bool lies_until_hit(const Arc& before, const Curve& after) {
   std::vector<Vec2> places;
-  for (const Candidate& c : before.points) places.push_back(c.pixel);
-  const double lasts = before.end() - before.begin();
-  return stands_still(places, 0.125 * after.curvature.norm() * lasts * lasts);
+  std::vector<double> times;
+  for (const Candidate& c : before.points) places.push_back(c.pixel), times.push_back(c.u);
+  return stands_still(places, times, after.curvature.norm());
 }
 
 Joint joint_of(const Link& link, double u, double noise) { return joint_at(u, link.curve_before, link.curve_after, noise, link.diameter); }
@@ -84,11 +84,6 @@ bool settle_in_space(const Shot& shot, const ShotCamera& camera, const std::vect
 /// How far apart in time each link alone is nearest to closed.
 double time_between(const Link& a, const Link& b, double noise) { return std::abs(own_joint(a, noise).u - own_joint(b, noise).u); }
 
-/// Points of an arc that are one body alone.
-std::ptrdiff_t count_alone(const Arc& arc, const Link& other, const Candidates& candidates) {
-  return std::count_if(arc.points.begin(), arc.points.end(), [&](const Candidate& c) { return !is_both(c, other, candidates); });
-}
-
 /// Whether both links close at one time, by pushes that momentum allows. Sets the time and the score.
 bool agree(const Candidates& candidates, const std::vector<Arc>& arcs, double noise, Evidence evidence, Collision& c) {
   c.u = common_time(c.a, c.b, noise);
@@ -116,6 +111,10 @@ bool meet_in_the_picture(const Collision& c, double noise) {
 }
 
 }  // namespace
+
+std::ptrdiff_t count_alone(const Arc& arc, const Link& other, const Candidates& candidates) {
+  return std::count_if(arc.points.begin(), arc.points.end(), [&](const Candidate& c) { return !is_both(c, other, candidates); });
+}
 
 Joint own_joint(const Link& link, double noise) { return join(link.curve_before, link.end, link.curve_after, link.begin, noise, link.diameter); }
 

@@ -32,6 +32,9 @@ constexpr double kLongestGap = 0.4;  ///< s between two flights of one body, beh
 
 Link link_of(const Arc& before, const Arc& after, double noise);
 
+/// Points of an arc that are one body alone, beside the `other`.
+std::ptrdiff_t count_alone(const Arc& arc, const Link& other, const Candidates& candidates);
+
 /// Where a link alone is nearest to closed.
 Joint own_joint(const Link& link, double noise);
 

@@ -172,7 +172,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   drop_contained(view, ending);
   result.cuboids = ending.cuboids;
   for (std::size_t i = 0; i < result.cuboids.size(); ++i) result.cuboids[i].id = ending.problem.cuboids[i].id = static_cast<int>(result.supports.size() + i);
-  trim_overlaps(view, ending.problem, ending.held, ending.arrangement, context);
+  if (std::optional<std::vector<char>> falls = trim_overlaps(view, ending.problem, ending.held, ending.arrangement, context)) ending.falls = std::move(*falls);
   describe(ending.problem, ending.held, ending.arrangement, result);
   warn_of_falls(ending.falls, problem.push, result, context);
   warn_of_free_space(view, ending.problem.tolerance, result.cuboids, context);

@@ -104,7 +104,7 @@ void drop_contained(const DepthView& view, Ending& ending) {
   }
 }
 
-void trim_overlaps(const DepthView& view, const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
+std::optional<std::vector<char>> trim_overlaps(const DepthView& view, const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context) {
   const int first = problem.supports_count();
   const std::vector<int> group = structure_of(problem, arrangement, {}, std::vector<char>(problem.bodies(), 0)).group;
   Firmness before;
@@ -123,13 +123,15 @@ void trim_overlaps(const DepthView& view, const Problem& problem, const std::vec
     return a;
   };
   Arrangement trimmed = trim_each(arrangement, false);
-  if (trimmed.extension == arrangement.extension) return;
+  if (trimmed.extension == arrangement.extension) return std::nullopt;
   before = firmness_of(problem, arrangement, held);
+  std::optional<std::vector<char>> falls;
   if (!is_as_firm(problem, trimmed, held, before)) {  // weights have changed
-    hold_together(problem, held, trimmed, context);
-    if (!is_as_firm(problem, trimmed, held, before)) trimmed = trim_each(arrangement, true);
+    falls = hold_together(problem, held, trimmed, context);
+    if (!is_as_firm(problem, trimmed, held, before)) trimmed = trim_each(arrangement, true), falls.reset();
   }
   arrangement = std::move(trimmed);
+  return falls;
 }
 
 }  // namespace unseen::cuboids

@@ -13,8 +13,8 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kMostLost = 0.1, kHardlyLost = 0.02;         // of the measured points of a box
-constexpr double kContained = 0.75;                        // of a box
+constexpr double kMostLost = 0.1, kHardlyLost = 0.02;        // of the measured points of a box
+constexpr double kContained = 0.75;                         // of a box
 constexpr double kLeastLeft = 1.0, kLeastShareLeft = 0.2;  // tolerances, of the size: the smaller one must be left of it
 
 bool is_within(const OrientedBox& box, const Vec3& p, double margin) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "cuboids/depth_view.h"
@@ -34,12 +35,13 @@ struct Ending {
   Arrangement arrangement;
   std::vector<Cuboid> cuboids;  ///< with their boxes as fitted
 };
-/// Takes away pieces that are contained in another box of their rigid body, unless masks tell the two apart, or what was at rest would not be without them: the
+/// Takes away pieces that are contained in another box of their rigid body, unless masks tell the two apart, or the whole would bear less without them: the
 /// inside of a cup.
 void drop_contained(const DepthView& view, Ending& ending);
 
 /// Boxes of one rigid body that still overlap at the end: one face of either moves inward, if other boxes explain nearly all that was measured there, what touched
-/// still touches, and what was at rest still is (where weights that were counted twice had kept it so, it may be held by a neighbour).
-void trim_overlaps(const DepthView& view, const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
+/// still touches, and the whole bears as much (where weights that were counted twice had kept it so, it may be held by a neighbour).
+/// Returns what then falls, where that was looked at anew.
+std::optional<std::vector<char>> trim_overlaps(const DepthView& view, const Problem& problem, const std::vector<char>& held, Arrangement& arrangement, Context& context);
 
 }  // namespace unseen::cuboids

@@ -63,16 +63,45 @@ TEST(AtRest, WhatIsPressedDownIsSaid) {
 
 TEST(AtRest, WhatFliesUpAndDownDoesNotStandStill) {
   std::vector<Vec2> still, flown;
+  std::vector<double> times;
   Random random(2);
   for (int k = -10; k <= 10; ++k) {
+    times.push_back(0.1 * k);
     const Vec2 noise = 0.5 * Vec2(random.normal(), random.normal());
     still.push_back(noise);
     flown.push_back(Vec2(0, 10.0 * k * k / 100.0) + noise);
   }
-  EXPECT_TRUE(stands_still(still, 10.0));
-  EXPECT_FALSE(stands_still(flown, 10.0));
-  EXPECT_FALSE(stands_still({still.begin(), still.begin() + 4}, 10.0));
-  EXPECT_FALSE(stands_still(still, 3.0));  // it would not have fallen far
+  EXPECT_TRUE(stands_still(still, times, 20.0));
+  EXPECT_FALSE(stands_still(flown, times, 20.0));
+  EXPECT_FALSE(stands_still({still.begin(), still.begin() + 4}, {times.begin(), times.begin() + 4}, 20.0));
+  EXPECT_FALSE(stands_still(still, times, 6.0));  // it would not have fallen far
+  flown.front() = {-20.0, 0.0};                   // seen once long before
+  for (double& t : times) t = t == times.front() ? t : 0.9 + 0.1 * t;
+  EXPECT_FALSE(stands_still(still, times, 20.0));
+}
+
+/// Bodies that are seen for 0.4 s, 2 m before a camera whose picture they do not move in: `down` in its coordinates; `falling`: along the view.
+Problem seen_at_one_place(const Vec3& down, bool falling, int bodies) {
+  Problem problem;
+  problem.camera = camera().camera;
+  problem.down = down.normalized();
+  for (int body = 0; body < bodies; ++body)
+    for (int k = 0; k < 24; ++k) {
+      PointObservation p;
+      p.body = body;
+      p.time = k / 60.0;
+      p.pixel = problem.camera.project({0.2 * body, 0, 2});
+      p.depth = 2.0 + (falling ? 0.5 * 9.81 * p.time * p.time : 0.0);
+      problem.points.push_back(p);
+    }
+  return problem;
+}
+
+TEST(AtRest, IsNotWhatFallsAlongTheViewNorBothBodies) {
+  EXPECT_TRUE(at_rest(seen_at_one_place({0, 1, 0}, false, 1))[0]);
+  EXPECT_FALSE(at_rest(seen_at_one_place({0, 1, 0}, true, 1))[0]);
+  EXPECT_FALSE(at_rest(seen_at_one_place({0, 0.01, 1}, false, 1))[0]);
+  EXPECT_EQ(at_rest(seen_at_one_place({0, 1, 0}, false, 2)), (std::array<bool, 2>{false, false}));
 }
 
 }  // namespace
