@@ -20,18 +20,15 @@ double sighting_noise(const std::vector<std::vector<Candidate>>& bodies, double 
   constexpr int kFarthest = 6;         // frames that four in a row may take
   constexpr double kQuarter = 0.3186;  // σ that a quarter of normal noise is below
   constexpr double kMuchLess = 0.4;    // the rest then has sightings that are simply wrong, of which one in four is enough
-  double noise = least;
-  for (const auto& seen : bodies) {  // one that lies still may have none
-    std::vector<double> off;
+  std::vector<double> off;
+  for (const auto& seen : bodies)
     for (std::size_t i = 3; i < seen.size(); ++i) {
       if (seen[i].frame - seen[i - 3].frame > kFarthest) continue;
       const Vec2 d = off_any_flight({&seen[i - 3], &seen[i - 2], &seen[i - 1], &seen[i]});
       off.insert(off.end(), {std::abs(d.x()), std::abs(d.y())});
     }
-    const double usual = 1.4826 * median(off), smooth = quantile(off, 0.25) / kQuarter;
-    noise = std::max(noise, smooth < kMuchLess * usual ? smooth : usual);
-  }
-  return noise;
+  const double usual = 1.4826 * median(off), smooth = quantile(off, 0.25) / kQuarter;
+  return std::max(least, smooth < kMuchLess * usual ? smooth : usual);
 }
 
 void add_flight(const std::vector<Candidate>& seen, std::size_t begin, std::size_t end, int body, double fps, Tracks& tracks) {

@@ -75,7 +75,7 @@ TEST(AtRest, WhatFliesUpAndDownDoesNotStandStill) {
   EXPECT_FALSE(stands_still(flown, times, 20.0));
   EXPECT_FALSE(stands_still({still.begin(), still.begin() + 4}, {times.begin(), times.begin() + 4}, 20.0));
   EXPECT_FALSE(stands_still(still, times, 6.0));  // it would not have fallen far
-  flown.front() = {-20.0, 0.0};                   // seen once long before
+  still.front() = {-20.0, 0.0};                   // seen once long before, elsewhere
   for (double& t : times) t = t == times.front() ? t : 0.9 + 0.1 * t;
   EXPECT_FALSE(stands_still(still, times, 20.0));
 }
@@ -90,7 +90,7 @@ Problem seen_at_one_place(const Vec3& down, bool falling, int bodies) {
       PointObservation p;
       p.body = body;
       p.time = k / 60.0;
-      p.pixel = problem.camera.project({0.2 * body, 0, 2});
+      p.pixel = problem.camera.project({0.2 * body, 0, 2}) + Vec2(0.5 * (k % 2), 0.0);
       p.depth = 2.0 + (falling ? 0.5 * 9.81 * p.time * p.time : 0.0);
       problem.points.push_back(p);
     }
