@@ -69,7 +69,7 @@ class PoseNetwork : public testing::Test {
       weights.push_back({gain * w[0], gain * w[1], gain * w[2]});
       biases.push_back(c < known ? 1 - gain : 0.5F);
     }
-    std::ofstream(file("net.onnx"), std::ios::binary) << test::little_onnx(weights, biases, kWidth, kHeight);
+    std::ofstream(file("net.onnx"), std::ios::binary) << unseen::test::little_onnx(weights, biases, kWidth, kHeight);
     return file("net.onnx");
   }
 

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <map>
+#include <string>
 
+#include "interactions/real_scenes.h"
 #include "unseen/interactions/evaluate.h"
 #include "unseen/report/interactions_recording.h"
 #include "unseen/report/interactions_take.h"
@@ -12,24 +14,18 @@
 namespace unseen::report {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace interactions;
+using interactions::test::has_real_scenes, interactions::test::kRealScenes, interactions::test::kRealScenesFolder, interactions::test::RealScene;
 
-const fs::path kData = fs::path(UNSEEN_SOURCE_DIR) / "../shared/data/interactions";
-
-/// A scene with what another program, written for the comparison in the literature, measured of the original authors' output on it.
-struct Scene {
-  const char* name;
-  std::vector<int> interacted;
+/// What another program, written for the comparison in the literature, measured of the original authors' output.
+struct Published {
   int found, false_objects;
   double distance, local, world;  // cm, cm, share; the last two of occluded joints
 };
-const Scene kScenes[] = {{"Scene05", {0}, 1, 2, 30, 16.4, 0.123},
-                         {"Scene07", {0, 1, 2}, 3, 5, 53, 19.0, 0.079},
-                         {"Scene11", {0, 1, 2, 3, 4}, 5, 1, 52, 16.2, 0.080},
-                         {"Scene13", {0, 2, 4, 5, 8, 9}, 4, 1, 53, 17.3, 0.127}};
-
-bool has_data() { return fs::exists(kData / kScenes[0].name); }
+const std::map<std::string, Published> kPublished = {{"Scene05", {1, 2, 30, 16.4, 0.123}},
+                                                     {"Scene07", {3, 5, 53, 19.0, 0.079}},
+                                                     {"Scene11", {5, 1, 52, 16.2, 0.080}},
+                                                     {"Scene13", {4, 1, 53, 17.3, 0.127}}};
 
 /// The other program measures in the camera's own x–z plane, as if the camera were level.
 void pretend_that_the_camera_is_level(Recording& truth) {
@@ -49,23 +45,24 @@ void keep_even_frames(Recording& truth) {
 }
 
 TEST(RealScenes, ScoreTheOriginalMethodsOutputAsAnotherProgramDoes) {
-  if (!has_data()) GTEST_SKIP() << "shared/data/interactions is not here";
+  if (!has_real_scenes()) GTEST_SKIP() << "shared/data/interactions is not here";
   double sum = 0, local = 0, world = 0, all_local = 0, all_world = 0;
   int found = 0, false_objects = 0, frames = 0, all_frames = 0;
-  for (const Scene& scene : kScenes) {
-    Recording truth = read_recording(kData / scene.name);
+  for (const RealScene& scene : kRealScenes) {
+    Recording truth = read_recording(kRealScenesFolder / scene.name);
     truth.interacted = scene.interacted;
+    const Published& published = kPublished.at(scene.name);
     pretend_that_the_camera_is_level(truth);
     keep_even_frames(truth);
-    const Evaluation e = evaluate(read_original_result(kData / scene.name / "iMapper", truth), truth);
+    const Evaluation e = evaluate(read_original_result(kRealScenesFolder / scene.name / "iMapper", truth), truth);
     EXPECT_EQ(e.interacted, static_cast<int>(scene.interacted.size())) << scene.name;
-    EXPECT_EQ(e.found, scene.found) << scene.name;
-    EXPECT_EQ(e.false_objects, scene.false_objects) << scene.name;
-    EXPECT_NEAR(100 * e.mean_distance.value(), scene.distance, 0.5) << scene.name;
-    EXPECT_NEAR(100 * e.occluded->local, scene.local, 0.05) << scene.name;
+    EXPECT_EQ(e.found, published.found) << scene.name;
+    EXPECT_EQ(e.false_objects, published.false_objects) << scene.name;
+    EXPECT_NEAR(100 * e.mean_distance.value(), published.distance, 0.5) << scene.name;
+    EXPECT_NEAR(100 * e.occluded->local, published.local, 0.05) << scene.name;
     // In Scene07 it takes the diagonal over odd frames too, whose poses are not valid: 4.92 m instead of 4.79 m.
     const double diagonal = scene.name == std::string("Scene07") ? 4.79 / 4.92 : 1.0;
-    EXPECT_NEAR(e.occluded->world * diagonal, scene.world, 0.0006) << scene.name;
+    EXPECT_NEAR(e.occluded->world * diagonal, published.world, 0.0006) << scene.name;
     found += e.found, false_objects += e.false_objects;
     sum += *e.mean_distance * e.found;
     frames += e.occluded->frames, local += e.occluded->local * e.occluded->frames, world += e.occluded->world * diagonal * e.occluded->frames;
@@ -82,9 +79,9 @@ TEST(RealScenes, ScoreTheOriginalMethodsOutputAsAnotherProgramDoes) {
 }
 
 TEST(RealScenes, AreUprightOnTheirFloor) {
-  if (!has_data()) GTEST_SKIP() << "shared/data/interactions is not here";
-  for (const Scene& scene : kScenes) {
-    const Recording r = read_recording(kData / scene.name);
+  if (!has_real_scenes()) GTEST_SKIP() << "shared/data/interactions is not here";
+  for (const RealScene& scene : kRealScenes) {
+    const Recording r = read_recording(kRealScenesFolder / scene.name);
     ASSERT_EQ(r.people.size(), 1u);
     EXPECT_TRUE(r.T_world_camera.is_rigid(1e-9));
     EXPECT_GT(r.T_world_camera.translation.z(), 0.7) << scene.name;
@@ -109,9 +106,9 @@ TEST(RealScenes, AreUprightOnTheirFloor) {
 }
 
 TEST(RealScenes, HaveOnlyFramesWhosePoseIsValid) {
-  if (!has_data()) GTEST_SKIP() << "shared/data/interactions is not here";
-  for (const Scene& scene : kScenes) {
-    const Recording r = read_recording(kData / scene.name);
+  if (!has_real_scenes()) GTEST_SKIP() << "shared/data/interactions is not here";
+  for (const RealScene& scene : kRealScenes) {
+    const Recording r = read_recording(kRealScenesFolder / scene.name);
     const bool all = scene.name == std::string("Scene11");
     for (const RecordedFrame& f : r.people[0]) {
       EXPECT_TRUE(all || f.frame % 2 == 0) << scene.name << " " << f.frame;
@@ -122,10 +119,10 @@ TEST(RealScenes, HaveOnlyFramesWhosePoseIsValid) {
 }
 
 TEST(RealScenes, SeatedPelvisesAreAboveASeat) {
-  if (!has_data()) GTEST_SKIP() << "shared/data/interactions is not here";
+  if (!has_real_scenes()) GTEST_SKIP() << "shared/data/interactions is not here";
   int seated = 0, above = 0;
-  for (const Scene& scene : kScenes) {
-    const Recording r = read_recording(kData / scene.name);
+  for (const RealScene& scene : kRealScenes) {
+    const Recording r = read_recording(kRealScenesFolder / scene.name);
     for (const RecordedFrame& f : r.people[0]) {
       if (f.action != Action::sit || f.pose(2, pelvis) > 0.7) continue;
       ++seated;
@@ -145,14 +142,14 @@ TEST(RealScenes, SeatedPelvisesAreAboveASeat) {
 
 /// Truth, projected, lies near the detections of the same frame: focal lengths, scale and frame numbers belong together.
 TEST(RealScenes, TakesSeeTheTruth) {
-  if (!has_data()) GTEST_SKIP() << "shared/data/interactions is not here";
+  if (!has_real_scenes()) GTEST_SKIP() << "shared/data/interactions is not here";
   const int frames[] = {120, 224, 355, 540}, lifted[] = {77, 223, 354, 539};
-  for (std::size_t s = 0; s < std::size(kScenes); ++s) {
-    const Take take = read_take(kData / kScenes[s].name / "take.json");
+  for (std::size_t s = 0; s < std::size(kRealScenes); ++s) {
+    const Take take = read_take(kRealScenesFolder / kRealScenes[s].name / "take.json");
     EXPECT_TRUE(take.remarks.empty()) << take.remarks[0];
     EXPECT_EQ(take.detections.size(), static_cast<std::size_t>(frames[s]));
     EXPECT_EQ(std::count_if(take.detections.begin(), take.detections.end(), [](const Detection& d) { return d.local.has_value(); }), lifted[s]);
-    const Recording truth = read_recording(kData / kScenes[s].name);
+    const Recording truth = read_recording(kRealScenesFolder / kRealScenes[s].name);
     const RigidTransform T = truth.T_world_camera.inverse();
     std::vector<double> off;
     for (const Detection& d : take.detections)
@@ -160,7 +157,7 @@ TEST(RealScenes, TakesSeeTheTruth) {
         if (f.frame == d.frame)
           for (const Joint j : {right_shoulder, left_shoulder, right_hip, left_hip}) off.push_back((take.camera.project(T * f.pose.col(j)) - d.pixels.col(j)).norm());
     std::nth_element(off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
-    EXPECT_LT(off[off.size() / 2], 35.0) << kScenes[s].name;
+    EXPECT_LT(off[off.size() / 2], 35.0) << kRealScenes[s].name;
   }
 }
 
