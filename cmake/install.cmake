@@ -4,6 +4,7 @@ include(CMakePackageConfigHelpers)
 get_property(unseen_libraries GLOBAL PROPERTY unseen_libraries)
 install(TARGETS ${unseen_libraries} unseen_unseen EXPORT unseen
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS unseen_codecs LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/unseen)
 install(TARGETS unseen_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs/schema DESTINATION ${CMAKE_INSTALL_DATADIR}/unseen)

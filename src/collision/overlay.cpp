@@ -6,10 +6,10 @@
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "collision/overlay_draw.h"
 #include "io/clip.h"
+#include "io/codecs.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -50,7 +50,7 @@ OverlayPicture picture_of(const cv::Mat& frame, double time) {
   if (frame.cols > kPictureWidth)
     cv::resize(frame, small, {kPictureWidth, std::max(1, frame.rows * kPictureWidth / frame.cols)}, 0, 0, cv::INTER_AREA);
   std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  io::codecs().encode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   return {time, small.cols, small.rows, {bytes.begin(), bytes.end()}};
 }
 
@@ -64,16 +64,17 @@ std::vector<OverlayPicture> write_overlay(const Shot& shot, const Reconstruction
   const std::array<int, 2> range = shown_frames(shot, r);
   const PictureChoice choice = choose_pictures(r, range);
   std::vector<OverlayPicture> pictures;
-  cv::VideoWriter writer;
+  std::unique_ptr<cv::VideoWriter> writer;
   cv::Mat frame;
   for (int f = 0; f <= range[1] && clip.next(frame); ++f) {
     context.progress(static_cast<double>(f) / (range[1] + 1));
     if (f < range[0]) continue;
     pen.draw(f, frame);
-    if (!video.empty() && !writer.isOpened() &&
-        !writer.open(video.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), r.fps > kFast ? kSlow : r.fps, frame.size()))
-      throw InputError(video.string(), "", "no video can be written", "OpenCV with FFmpeg, and a file that can be written");
-    if (writer.isOpened()) writer.write(frame);
+    if (!video.empty() && !writer) {
+      writer = io::codecs().video_writer(video.string(), io::fourcc('m', 'p', '4', 'v'), r.fps > kFast ? kSlow : r.fps, frame.size());
+      if (!writer->isOpened()) throw InputError(video.string(), "", "no video can be written", "OpenCV with FFmpeg, and a file that can be written");
+    }
+    if (writer) writer->write(frame);
     if (choice.takes(f)) pictures.push_back(picture_of(frame, time_of(r, f)));
   }
   return pictures;

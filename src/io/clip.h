@@ -2,8 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include <opencv2/videoio.hpp>
+#include <memory>
 #include <string>
+
+#include "io/codecs.h"
 
 namespace unseen::io {
 
@@ -25,7 +27,7 @@ class Clip {
 
  private:
   std::string path_;
-  cv::VideoCapture capture_;
+  std::unique_ptr<cv::VideoCapture> capture_;
   double fps_ = 0, stamp_ = 0;
   int announced_ = 0, turn_ = 0;
 };

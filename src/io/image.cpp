@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "io/codecs.h"
 #include "io/columns.h"
 #include "io/text.h"
 #include "unseen/core/error.h"
@@ -107,7 +108,7 @@ cv::Mat decode_jpeg(std::string_view bytes) {
   if (bytes.rfind(end) == std::string_view::npos) return {};
   try {
     const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    return cv::imdecode(data, cv::IMREAD_COLOR);
+    return codecs().decode(data, cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
     return {};
   }

@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "io/codecs.h"
 #include "unseen/io/write_image.h"
 
 namespace unseen::io {
@@ -14,7 +15,7 @@ std::string jpeg_of(const std::vector<std::array<std::uint8_t, 3>>& colors, int 
   for (std::size_t i = 0; i < colors.size(); ++i)
     image.at<cv::Vec3b>(static_cast<int>(i) / width, static_cast<int>(i) % width) = {colors[i][2], colors[i][1], colors[i][0]};
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) throw std::runtime_error("cannot make a JPEG");
+  if (!codecs().encode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, quality})) throw std::runtime_error("cannot make a JPEG");
   return {bytes.begin(), bytes.end()};
 }
 

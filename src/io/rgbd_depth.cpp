@@ -9,6 +9,7 @@
 #include <new>
 #include <opencv2/imgcodecs.hpp>
 
+#include "io/codecs.h"
 #include "io/file_bytes.h"
 #include "io/image.h"
 #include "io/quiet_opencv.h"
@@ -33,7 +34,7 @@ cv::Mat decode_tiff(std::string_view bytes, const std::string& name) {
   cv::Mat image;
   try {
     const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    image = cv::imdecode(data, cv::IMREAD_UNCHANGED);
+    image = codecs().decode(data, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     image.release();
   }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "io/codecs.h"
 #include "io/file_writer.h"
 
 namespace unseen::io {
@@ -18,7 +19,7 @@ void check_size(int width, int height, std::size_t pixels) {
 
 void write_png(const std::filesystem::path& path, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  cv::imencode(".png", image, bytes);
+  codecs().encode(".png", image, bytes, {});
   FileWriter writer(path);
   writer.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   writer.close();

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <functional>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <string>
 
+#include "io/codecs.h"
 #include "unseen/collision/types.h"
 #include "unseen/core/context.h"
 #include "unseen/core/geometry.h"
@@ -63,8 +63,8 @@ inline void add_noise(cv::Mat& frame, double sigma, Random& random) {
 
 /// Writes a lossless video of what `draw` gives for each frame.
 inline void write_video(const std::string& path, int frames, const std::function<cv::Mat(int)>& draw, double fps = 50.0) {
-  cv::VideoWriter writer(path, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('F', 'F', 'V', '1'), fps, {kWidth, kHeight});
-  for (int k = 0; k < frames; ++k) writer.write(draw(k));
+  const auto writer = io::codecs().video_writer(path, io::fourcc('F', 'F', 'V', '1'), fps, {kWidth, kHeight});
+  for (int k = 0; k < frames; ++k) writer->write(draw(k));
 }
 
 inline const cv::Scalar kRed(40, 40, 210);

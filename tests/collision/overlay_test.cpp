@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "collision/sample.h"
+#include "io/codecs.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -25,10 +25,10 @@ class OverlayTest : public testing::Test {
     std::string pattern = (fs::temp_directory_path() / "unseen-overlay-XXXXXX").string();
     folder = mkdtemp(pattern.data());
     sample.shot.video = (folder / "clip.avi").string();
-    cv::VideoWriter writer(sample.shot.video, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 120, {640, 480});
+    const auto writer = io::codecs().video_writer(sample.shot.video, io::fourcc('M', 'J', 'P', 'G'), 120, {640, 480});
     for (int f = 0; f < 90; ++f) {
       cv::Mat frame(480, 640, CV_8UC3, cv::Scalar::all(128));
-      writer.write(frame);
+      writer->write(frame);
     }
   }
   ~OverlayTest() override { fs::remove_all(folder); }
@@ -43,7 +43,7 @@ class OverlayTest : public testing::Test {
   Context context;
 };
 
-cv::Mat decoded(const OverlayPicture& p) { return cv::imdecode(std::vector<char>(p.jpeg.begin(), p.jpeg.end()), cv::IMREAD_COLOR); }
+cv::Mat decoded(const OverlayPicture& p) { return io::codecs().decode(std::vector<char>(p.jpeg.begin(), p.jpeg.end()), cv::IMREAD_COLOR); }
 
 /// The largest distance of a channel from grey within a few pixels.
 double colored(const cv::Mat& picture, double x, double y) {
@@ -90,11 +90,11 @@ TEST_F(OverlayTest, FollowsTheLens) {
 TEST_F(OverlayTest, TheVideoHasAllFramesInSlowMotion) {
   const fs::path out = folder / "overlay.mp4";
   write_overlay(sample.shot, sample.result, out, context);
-  cv::VideoCapture clip(out.string(), cv::CAP_FFMPEG);
-  ASSERT_TRUE(clip.isOpened());
-  EXPECT_EQ(clip.get(cv::CAP_PROP_FPS), 30);
+  const auto clip = io::codecs().video_reader();
+  ASSERT_TRUE(clip->open(out.string(), cv::CAP_FFMPEG));
+  EXPECT_EQ(clip->get(cv::CAP_PROP_FPS), 30);
   int frames = 0;
-  for (cv::Mat frame; clip.read(frame); ++frames) EXPECT_EQ(frame.cols, 640);
+  for (cv::Mat frame; clip->read(frame); ++frames) EXPECT_EQ(frame.cols, 640);
   EXPECT_EQ(frames, 90);
 }
 

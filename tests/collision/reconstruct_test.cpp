@@ -329,7 +329,9 @@ TEST(Reconstruct, FewSightingsOfAFlightAreNoMisfit) {
     }
     Context context;
     const Reconstruction r = reconstruct(shot, {}, context);
-    if (r.restitution) EXPECT_NEAR(r.restitution->value, 0.6, 0.05) << seed;
+    if (r.restitution) {
+      EXPECT_NEAR(r.restitution->value, 0.6, 0.05) << seed;
+    }
     fit += r.fits;
   }
   EXPECT_EQ(fit, 8);

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <opencv2/videoio.hpp>
 
+#include "io/codecs.h"
 #include "unseen/core/error.h"
 #include "unseen/io/write_video.h"
 #include "unseen/report/collision_shot.h"
@@ -129,11 +129,12 @@ TEST_F(SynthFiles, AVideoComesBackAsItWasWritten) {
       pictures.push_back(bgr);
     });
     file.close();
-    cv::VideoCapture video((folder / name).string());
-    EXPECT_NEAR(video.get(cv::CAP_PROP_FPS), 60, 1e-3);
+    const auto video = io::codecs().video_reader();
+    ASSERT_TRUE(video->open((folder / name).string(), cv::CAP_FFMPEG));
+    EXPECT_NEAR(video->get(cv::CAP_PROP_FPS), 60, 1e-3);
     cv::Mat frame;
     std::size_t count = 0;
-    for (; video.read(frame); ++count) {
+    for (; video->read(frame); ++count) {
       ASSERT_LT(count, pictures.size());
       const cv::Mat exact(options.height, options.width, CV_8UC3, pictures[count].data());
       EXPECT_LT(cv::norm(frame, exact, cv::NORM_L1) / static_cast<double>(exact.total() * 3), 6) << name << " frame " << count;

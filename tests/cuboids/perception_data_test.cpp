@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
+#include "io/codecs.h"
 #include "perception_scenes.h"
 
 namespace unseen::cuboids::test {
@@ -14,9 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+cv::Mat read_picture(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return io::codecs().decode(std::vector<char>(std::istreambuf_iterator<char>(file), {}), cv::IMREAD_UNCHANGED);
+}
+
 /// A frame of mOSD beside the project: Kinect, depth in millimetres.
 RgbdFrame load(const fs::path& folder) {
-  const cv::Mat depth = cv::imread((folder / "depth.png").string(), cv::IMREAD_UNCHANGED), color = cv::imread((folder / "color.png").string());
+  const cv::Mat depth = read_picture(folder / "depth.png"), color = read_picture(folder / "color.png");
   RgbdFrame frame;
   frame.name = folder.filename().string();
   frame.camera = {525, 525, 319.5, 239.5, depth.cols, depth.rows};

@@ -12,10 +12,13 @@ if [ -n "$sanitize" ]; then flags="-fsanitize=$sanitize"; fi
 
 "$cmake" --install "$build" --prefix "$folder/prefix" >/dev/null
 "$folder/prefix/bin/unseen" --version
+LD_DEBUG=files "$folder/prefix/bin/unseen" synth cuboids -o "$folder/frame" --quiet 2>"$folder/loaded.txt"
+grep -q "calling init: $folder/prefix/.*/unseen_codecs.so" "$folder/loaded.txt"
 
 "$cmake" -S "$source/examples" -B "$folder/examples" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
   -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_PREFIX_PATH="$folder/prefix"
 "$cmake" --build "$folder/examples"
+readelf -d "$folder/examples/01_planes" | grep -q "RUNPATH.*$folder/prefix/.*/unseen"
 
 "$folder/examples/01_planes" | tee "$folder/planes.txt"
 [ "$(grep -c normal "$folder/planes.txt")" -eq 3 ]

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "interactions/little_onnx.h"
+#include "io/codecs.h"
 #include "unseen/core/error.h"
 #include "unseen/report/pose_network.h"
 
@@ -41,7 +41,7 @@ class PoseNetwork : public testing::Test {
 
   /// Dots without loss; joint j has the colour of label `labels[j]`, −1 = no dot.
   fs::path video(const std::array<int, kJoints>& labels, int frames = 4) const {
-    cv::VideoWriter writer(file("dots.avi").string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('F', 'F', 'V', '1'), 12.5, {kWidth, kHeight});
+    const auto writer = io::codecs().video_writer(file("dots.avi").string(), io::fourcc('F', 'F', 'V', '1'), 12.5, {kWidth, kHeight});
     for (int f = 0; f < frames; ++f) {
       cv::Mat frame(kHeight, kWidth, CV_8UC3, cv::Scalar::all(0));
       for (int j = 0; j < kJoints; ++j) {
@@ -54,7 +54,7 @@ class PoseNetwork : public testing::Test {
                      cv::Scalar(light * c[0], light * c[1], light * c[2]), cv::FILLED, cv::LINE_AA, 4);
         }
       }
-      writer.write(frame);
+      writer->write(frame);
     }
     return file("dots.avi");
   }
