@@ -82,7 +82,7 @@ double path_error(const StagedShot& shot, const StagedCollision& c) {
   return worst;
 }
 
-class Resimulated : public testing::TestWithParam<std::tuple<const char*, int, double, double>> {};
+class Resimulated : public testing::TestWithParam<std::tuple<std::string, int, double, double>> {};
 
 TEST_P(Resimulated, KeepsRestitutionAndPath) {
   const auto& [scene, seed, restitution, friction] = GetParam();
