@@ -2,11 +2,11 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/appearance.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "collision/color_sight.h"
+#include "core/linear.h"
 #include "unseen/collision/body_mesh.h"
 #include "unseen/core/random.h"
 
@@ -40,7 +40,7 @@ struct Sums {
     if (freedom <= 2.0 * kLights) return 0.0;
     Eigen::Matrix<double, kLights, kLights> regular = lights;
     regular.diagonal().array() += 1e-3 * freedom;
-    const double explained = mixed.dot(regular.ldlt().solve(mixed));
+    const double explained = mixed.dot(solve_symmetric(regular, mixed));
     return std::max(colors - explained, 1e-12) / freedom;
   }
 };

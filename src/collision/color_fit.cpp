@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -8,6 +7,7 @@
 #include "collision/appearance.h"
 #include "collision/color_sight.h"
 #include "collision/silhouette_fit.h"
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -59,7 +59,7 @@ class ColorFit {
     center(lights);
     Eigen::Matrix<double, kLights, kLights> normal = 3.0 * lights.transpose() * lights;
     normal.diagonal().array() += 3e-3 * static_cast<double>(count);
-    const Light shade = normal.ldlt().solve(lights.transpose() * colors.rowwise().sum());
+    const Light shade = solve_symmetric(normal, lights.transpose() * colors.rowwise().sum());
     colors.colwise() -= lights * shade;
     return colors.reshaped();
   }
@@ -120,7 +120,7 @@ void descend(Turning& best, const SilhouetteFit& outlines, ColorFit& colors, dou
     for (int attempt = 0; attempt < 4 && !moved; ++attempt) {
       Matrix6 damped = normal;
       damped.diagonal() *= 1.0 + damping;
-      Turning next = outlines.moved(best, -damped.ldlt().solve(gradient));
+      Turning next = outlines.moved(best, -solve_symmetric(damped, gradient));
       const SilhouetteFit::Residuals there = outlines.residuals(next);
       next.cost = SilhouetteFit::cost(there);
       moved = share * next.cost + worth * std::log(colors.residuals(outlines.path(next)).squaredNorm()) < cost;

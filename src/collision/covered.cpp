@@ -2,11 +2,12 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/covered.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -36,7 +37,7 @@ double width_of(const std::vector<Vec2>& points) {
   for (const Vec2& p : points) mean += p / static_cast<double>(points.size());
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (const Vec2& p : points) spread += (p - mean) * (p - mean).transpose() / static_cast<double>(points.size());
-  return std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues()[0]));
+  return std::sqrt(std::max(0.0, symmetric_eigen(spread).values[0]));
 }
 
 struct OutlinePoint {

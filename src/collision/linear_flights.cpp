@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/linear_flights.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "collision/views.h"
+#include "core/linear.h"
 #include "io/clip.h"
 
 namespace unseen::collision {
@@ -92,7 +93,7 @@ std::pair<double, double> area_range(const SpinBody& body) {
   double least = std::numeric_limits<double>::infinity(), most = 0.0;
   for (const Vec3& view : sphere_directions(kViews)) {
     const Vec3 center(0, 0, kFar * body.solid.mass.reach);
-    const Eigen::Matrix2Xd pixels = kFar * projected(body.corners, Quat::FromTwoVectors(view, Vec3::UnitZ()), center, flat);
+    const Eigen::Matrix2Xd pixels = kFar * projected(body.corners, turn_between(view, Vec3::UnitZ()), center, flat);
     std::vector<cv::Point2f> points, hull;
     for (const auto& p : pixels.colwise()) points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
     cv::convexHull(points, hull);

@@ -2,11 +2,11 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/mass_properties.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <map>
 #include <string>
 
+#include "core/linear.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -55,9 +55,9 @@ MassProperties of_mesh(const TriangleMesh& mesh, const std::string& source, cons
   m.volume = std::abs(volume);
   const Mat3 covariance = second / volume - center * center.transpose();
   const Mat3 inertia = covariance.trace() * Mat3::Identity() - covariance;
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(inertia);
-  m.inertia = eigen.eigenvalues();
-  m.axes = eigen.eigenvectors();
+  const SymmetricEigen<3> principal = symmetric_eigen(inertia);
+  m.inertia = principal.values;
+  m.axes = principal.vectors;
   if (m.axes.determinant() < 0.0) m.axes.col(2) *= -1.0;
   for (const Vec3& v : mesh.vertices) m.reach = std::max(m.reach, (v - m.center).norm());
   m.extent = std::sqrt(area / kPi);  // exact for convex bodies (Cauchy): mean projected area = area / 4

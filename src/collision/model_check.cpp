@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +11,7 @@
 #include "collision/residuals.h"
 #include "collision/solve.h"
 #include "collision/unknowns.h"
+#include "core/linear.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
@@ -134,7 +134,7 @@ std::vector<double> predicted_variances(const std::vector<PointObservation>& poi
     Mat3 information = Mat3::Zero();
     for (const double time : times) information += powers(time) * powers(time).transpose();
     const Vec3 x = powers(points[i].time);
-    variances[i] += x.dot(information.ldlt().solve(x));
+    variances[i] += x.dot(solve_symmetric(information, x));
   }
   return variances;
 }

@@ -5,13 +5,12 @@
 #include <ceres/jet.h>
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "collision/unknowns.h"
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -26,11 +25,11 @@ constexpr double kUnlikely = 13.8;   // χ² of two numbers that chance exceeds 
 
 /// Σ^(−1/2) or Σ^(−1) of a covariance without full rank.
 Mat3 power_of(const Mat3& covariance, double exponent) {
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(covariance);
+  const SymmetricEigen<3> eigen = symmetric_eigen(covariance);
   Vec3 powers = Vec3::Zero();
   for (int i = 0; i < 3; ++i)
-    if (eigen.eigenvalues()[i] > 1e-9 * eigen.eigenvalues()[2]) powers[i] = std::pow(eigen.eigenvalues()[i], exponent);
-  return eigen.eigenvectors() * powers.asDiagonal() * eigen.eigenvectors().transpose();
+    if (eigen.values[i] > 1e-9 * eigen.values[2]) powers[i] = std::pow(eigen.values[i], exponent);
+  return eigen.vectors * powers.asDiagonal() * eigen.vectors.transpose();
 }
 
 /// What of the impulse along a level floor no friction explains, over the impulse along its normal; with derivatives.

@@ -2,9 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/one_flight.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -38,7 +39,7 @@ Quotient fit(const std::vector<double>& times, const std::vector<Vec2>& places) 
         right[2 * i + axis] = weight * place;
       }
     }
-    q = rows.colPivHouseholderQr().solve(right);
+    q = least_squares(rows, right);
   }
   return q;
 }

@@ -2,11 +2,11 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/pose_candidates.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "collision/rotation.h"
 #include "collision/views.h"
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -20,7 +20,7 @@ constexpr int kRefinements = 6;
 std::vector<PoseCandidate> on_grid(const SpinBody& body, const Camera& camera, const Look& look) {
   static_assert(kTurns == kDirections);
   const std::vector<Quat> grid = rotation_grid(kViewsTried, kTurns);
-  const Quat to_ray = Quat::FromTwoVectors(Vec3::UnitZ(), look.center);
+  const Quat to_ray = turn_between(Vec3::UnitZ(), look.center);
   Eigen::Matrix<double, kDirections, kTurns> turned;
   std::vector<PoseCandidate> all(grid.size());
   for (int v = 0; v < kViewsTried; ++v) {
@@ -52,7 +52,7 @@ PoseCandidate refined_pose(const SpinBody& body, const Camera& camera, const Loo
     Mat3 normal = jacobian.transpose() * jacobian;
     normal.diagonal() *= 1.0 + damping;
     normal.diagonal().array() += 1e-6;
-    const Vec3 move = -normal.ldlt().solve(jacobian.transpose() * r);
+    const Vec3 move = -solve_symmetric(normal, jacobian.transpose() * r);
     const Quat next = (rotation_by<double>(move.norm() > 0.3 ? Vec3(0.3 * move.normalized()) : move) * q).normalized();
     const Support there = silhouette_residual(body, camera, look, next);
     if (there.squaredNorm() < cost) {

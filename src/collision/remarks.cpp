@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/remarks.h"
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "collision/scale_doubt.h"
 #include "collision/shot_problem.h"
 #include "collision/vertical.h"
+#include "core/linear.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
@@ -83,7 +83,7 @@ void check_parallel(const Shot& shot, const Camera& camera, const Tracks& tracks
     rows.row(i).tail<2>() = off.transpose();
     size[i] = std::log(p.diameter);
   }
-  const auto fit_of = [&](const Eigen::MatrixXd& columns) { return Eigen::VectorXd(Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(columns).solve(size)); };
+  const auto fit_of = [&](const Eigen::MatrixXd& columns) { return least_norm(columns, size); };
   const Eigen::MatrixXd level = rows.leftCols<3>();
   const Eigen::VectorXd fit = fit_of(rows), seen = rows.rightCols<2>() * fit.tail<2>();
   const double squares = (rows * fit - size).squaredNorm(), without = (level * fit_of(level) - size).squaredNorm();

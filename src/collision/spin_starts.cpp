@@ -2,11 +2,12 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/spin_starts.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <algorithm>
 
 #include "collision/rotation.h"
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -44,7 +45,7 @@ SpinGuess refined(const std::vector<const OrientationObservation*>& seen, const 
     Eigen::MatrixXd normal = j.transpose() * j;
     normal.diagonal() *= 1.0 + damping;
     normal.diagonal().array() += 1e-12;
-    const Eigen::VectorXd step = normal.ldlt().solve(-j.transpose() * r);
+    const Eigen::VectorXd step = solve_symmetric(normal, -j.transpose() * r);
     if (!step.allFinite()) break;
     SpinGuess next = guess;
     next.q = (rotation_by<double>(Vec3(step.head<3>())) * guess.q).normalized();

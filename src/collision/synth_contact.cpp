@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/linear.h"
+
 namespace unseen::collision {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double kLeastSlope = 0.15;  // sine: a corner's edges leave the contac
 
 /// A rotation that takes `from` to `to` and is otherwise free.
 Quat turned(const Vec3& from, const Vec3& to, double angle) {
-  return Quat(Eigen::AngleAxisd(angle, to)) * Quat::FromTwoVectors(from, to);
+  return Quat(Eigen::AngleAxisd(angle, to)) * turn_between(from, to);
 }
 
 Vec3 show_face(const SynthBody& body, const Vec3& direction, Random& random, Quat& q) {
@@ -32,7 +34,7 @@ Vec3 show_edge(const SynthBody& body, const Vec3& direction, double azimuth, Ran
   const double mix = random.uniform(0.3, 0.7);
   const Vec3 outwards = (mix * edge.normals[0] + (1 - mix) * edge.normals[1]).normalized();
   const Vec3 from = body.vertices[edge.from], along = body.vertices[edge.to] - from;
-  const Quat start = Quat::FromTwoVectors(outwards, direction);
+  const Quat start = turn_between(outwards, direction);
   const Vec3 zero = any_orthogonal(direction), now = start * along.normalized();
   const double angle = std::atan2(direction.dot(zero.cross(now)), zero.dot(now));
   q = Quat(Eigen::AngleAxisd(azimuth - angle, direction)) * start;

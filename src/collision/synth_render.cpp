@@ -9,6 +9,7 @@
 #include "collision/synth_motion.h"
 #include "collision/synth_plan.h"
 #include "collision/synth_sight.h"
+#include "core/linear.h"
 #include "unseen/collision/synth.h"
 
 namespace unseen::collision {
@@ -88,7 +89,7 @@ class Film {
     }
     const BodyState& s = *frames[best].bodies[body];
     const SynthMover& mover = movers_[body];
-    const Vec3 w = (mover.mass * mover.body.inertia).ldlt().solve(s.q.conjugate() * s.k);
+    const Vec3 w = solve_symmetric<3>(mover.mass * mover.body.inertia, s.q.conjugate() * s.k);
     return fly(mover, {s.p, s.v, s.q, w}, Vec3(0, 0, -scene_.shot.gravity), time - frames[best].time).pose();
   }
 

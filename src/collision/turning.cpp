@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "collision/rotation.h"
 #include "collision/silhouette_fit.h"
+#include "core/linear.h"
 
 namespace unseen::collision {
 
@@ -40,7 +40,7 @@ Turning refined(const Turning& start, const SpinBody& body, const Camera& camera
     SilhouetteFit::Matrix6 damped = normal;
     damped.diagonal() *= 1.0 + damping;
     damped.diagonal().array() += 1e-6;
-    SilhouetteFit::Vector6 move = -damped.ldlt().solve(gradient);
+    SilhouetteFit::Vector6 move = -solve_symmetric(damped, gradient);
     if (move.norm() > kFarthest) move *= kFarthest / move.norm();
     Turning next = fit.moved(best, move);
     const SilhouetteFit::Residuals there = fit.residuals(next);

@@ -2,12 +2,13 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/vertical.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 
 #include "collision/unknowns.h"
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -36,12 +37,12 @@ Vertical seen_vertical(const Problem& problem, const Fit& fit) {
   if (!(covariance.determinant() > 0.0)) return {};
   const Mat3 expected = expected_vertical(problem).precision;
   const Tangent tilts = tilts_of(fit.state.down);
-  const Eigen::SelfAdjointEigenSolver<Mat2> eigen(Mat2(covariance.inverse() - tilts.transpose() * expected * tilts));
+  const SymmetricEigen<2> eigen = symmetric_eigen<2>(covariance.inverse() - tilts.transpose() * expected * tilts);
   Vertical seen;
   for (int i = 0; i < 2; ++i) {
-    if (eigen.eigenvalues()[i] <= 0.0) continue;
-    const Vec3 along = tilts * eigen.eigenvectors().col(i);
-    seen.precision += eigen.eigenvalues()[i] * along * along.transpose();
+    if (eigen.values[i] <= 0.0) continue;
+    const Vec3 along = tilts * eigen.vectors.col(i);
+    seen.precision += eigen.values[i] * along * along.transpose();
     seen.sum += along * along.dot(expected * fit.state.down);  // at the minimum it pulls as strongly as what was expected
   }
   return seen;
@@ -54,11 +55,11 @@ std::pair<Vec3, double> likeliest(const Vertical& vertical, const Vec3& near) {
   for (int round = 0; round < kRounds; ++round) {
     const Tangent tilts = tilts_of(down);
     precision = tilts.transpose() * vertical.precision * tilts;
-    const Eigen::Vector2d step = precision.ldlt().solve(tilts.transpose() * (vertical.sum - vertical.precision * down));
+    const Eigen::Vector2d step = solve_symmetric(precision, tilts.transpose() * (vertical.sum - vertical.precision * down));
     if (!step.allFinite()) break;
     down = (down + tilts * step).normalized();
   }
-  const double least = Eigen::SelfAdjointEigenSolver<Mat2>(precision).eigenvalues()[0];
+  const double least = symmetric_eigen(precision).values[0];
   return {down, 1.0 / std::sqrt(std::max(1e-6, least))};
 }
 

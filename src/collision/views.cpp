@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/views.h"
 
+#include "core/linear.h"
+
 namespace unseen::collision {
 
 std::vector<Vec3> sphere_directions(int count) {
@@ -17,7 +19,7 @@ std::vector<Vec3> sphere_directions(int count) {
 std::vector<Quat> rotation_grid(int views, int turns) {
   std::vector<Quat> all;
   for (const Vec3& view : sphere_directions(views)) {
-    const Quat to_axis = Quat::FromTwoVectors(view, Vec3::UnitZ());
+    const Quat to_axis = turn_between(view, Vec3::UnitZ());
     for (int i = 0; i < turns; ++i) all.push_back(Quat(Eigen::AngleAxisd(2.0 * kPi * i / turns, Vec3::UnitZ())) * to_axis);
   }
   return all;

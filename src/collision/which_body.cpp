@@ -11,6 +11,7 @@
 
 #include "collision/pose_cost.h"
 #include "collision/views.h"
+#include "core/linear.h"
 
 namespace unseen::collision {
 namespace {
@@ -54,7 +55,7 @@ std::vector<Outline> outlines_of(const Body& body, const std::string& source) {
   const SpinBody spin = spin_body(body, source);
   std::vector<Outline> all;
   for (const Vec3& view : sphere_directions(kViews)) {
-    const Eigen::Matrix3Xd turned = Quat::FromTwoVectors(view, Vec3::UnitZ()).toRotationMatrix() * spin.corners / kUnit;
+    const Eigen::Matrix3Xd turned = turn_between(view, Vec3::UnitZ()).toRotationMatrix() * spin.corners / kUnit;
     std::vector<cv::Point2f> points, hull;
     for (const auto& c : turned.colwise()) points.emplace_back(static_cast<float>(c.x()), static_cast<float>(c.y()));
     cv::convexHull(points, hull);

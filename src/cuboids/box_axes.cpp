@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/linear.h"
 #include "cuboids/outline.h"
 #include "unseen/core/quantile.h"
 
@@ -106,7 +107,7 @@ Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const
   const Face* largest = largest_face(points, faces);
   const auto level = largest ? leans_from(seen, *largest, kLeanSigmas) : std::nullopt;
   if (!level || line_angle(*level, largest->plane.normal) > kMostLean) return axes;
-  return Eigen::Quaterniond::FromTwoVectors(*level, largest->plane.normal).toRotationMatrix() * axes;
+  return turn_between(*level, largest->plane.normal).toRotationMatrix() * axes;
 }
 
 /// Axes of the two largest orthogonal faces, or of the largest and the rectangle around its points.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/box_matching.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>

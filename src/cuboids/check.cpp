@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/linear.h"
 #include "cuboids/convex_parts.h"
 #include "cuboids/interface.h"
 #include "cuboids/statics.h"
@@ -90,7 +91,7 @@ void add_contacts(const std::vector<Block>& blocks, const std::vector<Piece>& pi
 }
 
 Mat3 turn_to_z(const Vec3& up) {
-  return Eigen::Quaterniond::FromTwoVectors(up, Vec3::UnitZ()).toRotationMatrix();
+  return turn_between(up, Vec3::UnitZ()).toRotationMatrix();
 }
 
 void require(bool holds, const char* option, const std::string& found, const char* expected) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "core/linear.h"
 #include "cuboids/complete.h"
 
 namespace unseen::cuboids {
@@ -62,7 +62,7 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
     for (const Part& part : rows[r])
       if (part.variable >= 0) normal.row(r) += part.cosine * spread.row(part.variable);
   normal.diagonal().array() += 1e-6;  // contacts that contradict each other share the rest
-  const Eigen::VectorXd moves = spread * normal.ldlt().solve(Eigen::Map<const Eigen::VectorXd>(gaps.data(), count));
+  const Eigen::VectorXd moves = spread * solve_symmetric(normal, Eigen::Map<const Eigen::VectorXd>(gaps.data(), count));
   double volume = 0.0;
   for (std::size_t i = 0; i < arrangement.boxes.size(); ++i) {
     Extension extension;

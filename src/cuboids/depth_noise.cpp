@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "core/linear.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
@@ -63,7 +63,7 @@ std::optional<Patch> patch_at(const RgbdFrame& frame, int left, int top) {
     }
   const double count = static_cast<double>(rows.size());
   if (count < kMeasuredShare * kPatch * kPatch) return std::nullopt;
-  const Vec3 plane = normal.ldlt().solve(right);
+  const Vec3 plane = solve_symmetric(normal, right);
   double squares = 0, products = 0, before = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double rest = inverse[i] - plane.dot(rows[i]);

@@ -2,10 +2,11 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/face_edges.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "core/linear.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -49,7 +50,7 @@ double squares_to_plane(const Observation& seen, const std::vector<int>& part) {
     const Vec3 d = (seen.points[i] - middle) / seen.graph.sigma[i];
     second += d * d.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<Mat3>(second, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  return symmetric_eigen(second).values[0];
 }
 
 /// Sum of the squared distances of points to the paraboloid about `axis` that fits them, in σ.
@@ -66,7 +67,7 @@ double squares_to_paraboloid(const Observation& seen, const std::array<std::vect
       terms.row(row) /= sigma;
       height[row++] = d.dot(axis) / sigma;
     }
-  const Eigen::Vector<double, 6> c = terms.colPivHouseholderQr().solve(height);
+  const Eigen::Vector<double, 6> c = least_squares(terms, height);
   double sum = 0;
   for (row = 0; row < terms.rows(); ++row) {
     const double x = terms(row, 1) / terms(row, 0), y = terms(row, 2) / terms(row, 0);

@@ -2,9 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/faces.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "core/linear.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -32,13 +33,13 @@ struct Sums {
 void fit(const Sums& sums, const Vec3& viewpoint, Face& face) {
   const Vec3 mean = sums.first / sums.weight;
   const Mat3 covariance = sums.second / sums.weight - mean * mean.transpose();
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen(covariance);
-  Vec3 normal = eigen.eigenvectors().col(0);
+  const SymmetricEigen<3> eigen = symmetric_eigen(covariance);
+  Vec3 normal = eigen.vectors.col(0);
   face.center = sums.origin + mean;
   if (normal.dot(viewpoint - face.center) < 0.0) normal = -normal;
   face.plane = {normal, normal.dot(face.center)};
-  face.width = std::sqrt(std::max(eigen.eigenvalues()[1], 0.0));
-  face.length = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
+  face.width = std::sqrt(std::max(eigen.values[1], 0.0));
+  face.length = std::sqrt(std::max(eigen.values[2], 0.0));
 }
 
 /// Points that a region needs before its own normal is better than that of its seed: those of a square `width` σ wide.

@@ -2,11 +2,11 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/levels.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/linear.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
@@ -37,7 +37,7 @@ double tilt_error(const Scan& scan, std::span<const int> points) {
   for (const int i : points) mean += scan.points[i] / count, sigma += scan.graph.sigma[i] / count;
   Mat3 second = Mat3::Zero();
   for (const int i : points) second += (scan.points[i] - mean) * (scan.points[i] - mean).transpose() / count;
-  const double spread = std::sqrt(std::max(Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvalues()[1], 1e-12));
+  const double spread = std::sqrt(std::max(symmetric_eigen(second).values[1], 1e-12));
   return std::hypot(sigma / (spread * std::sqrt(kIndependent * count)), kSystematic / spread);
 }
 
@@ -103,12 +103,11 @@ Plane fit_support(const Scan& scan, std::span<const int> points) {
       weights += w;
     }
     if (scan.is_image) {
-      solution = normal_matrix.ldlt().solve(right);
+      solution = solve_symmetric(normal_matrix, right);
       plane = {-solution.normalized(), -1.0 / solution.norm()};
     } else {
       mean /= weights;
-      const Eigen::SelfAdjointEigenSolver<Mat3> eigen(second / weights - mean * mean.transpose());
-      Vec3 n = eigen.eigenvectors().col(0);
+      Vec3 n = symmetric_eigen<3>(second / weights - mean * mean.transpose()).vectors.col(0);
       if (n.dot(origin + mean) > 0.0) n = -n;
       plane = {n, n.dot(origin + mean)};
     }

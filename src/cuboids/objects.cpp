@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "core/linear.h"
 #include "cuboids/join_surfaces.h"
 #include "cuboids/observation.h"
 #include "cuboids/plain_colors.h"
@@ -78,7 +78,7 @@ bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_
     Mat3 second = Mat3::Zero();
     for (const int i : part) mean += seen.points[i] / static_cast<double>(part.size());
     for (const int i : part) second += (seen.points[i] - mean) * (seen.points[i] - mean).transpose() / static_cast<double>(part.size());
-    const double width = std::sqrt(12.0 * std::max(Eigen::SelfAdjointEigenSolver<Mat3>(second).eigenvalues()[1], 0.0));
+    const double width = std::sqrt(12.0 * std::max(symmetric_eigen(second).values[1], 0.0));
     if (width < kStrip * seen.graph.spacing[part.front()]) return true;
   }
   for (const Support& support : seen.supports) {

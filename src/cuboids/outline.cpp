@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/linear.h"
+
 namespace unseen::cuboids {
 namespace {
 
@@ -115,7 +117,7 @@ Vec2 lean_of_outline(const Observation& seen, const DepthView& view, std::span<c
 Mat3 leaning_axes(const Observation& seen, const DepthView& view, std::span<const Face* const> faces, const Mat3& axes) {
   const Vec2 lean = lean_of_outline(seen, view, faces, axes);
   if (lean.isZero()) return axes;
-  return Eigen::Quaterniond::FromTwoVectors(axes.col(2), axes * Vec3(lean.x(), lean.y(), 1.0)).toRotationMatrix() * axes;
+  return turn_between(axes.col(2), axes * Vec3(lean.x(), lean.y(), 1.0)).toRotationMatrix() * axes;
 }
 
 }  // namespace unseen::cuboids

@@ -2,11 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/registration.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear.h"
 #include "core/point_tree.h"
 
 namespace unseen::cuboids {
@@ -37,7 +36,7 @@ SampledSurface::SampledSurface(std::vector<Vec3> points, std::vector<Vec3> norma
     for (std::size_t k = 0; k < found; ++k) mean += points_[index[k]] / static_cast<double>(found);
     Mat3 spread = Mat3::Zero();
     for (std::size_t k = 0; k < found; ++k) spread += (points_[index[k]] - mean) * (points_[index[k]] - mean).transpose();
-    normals_[i] = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().col(0);
+    normals_[i] = symmetric_eigen(spread).vectors.col(0);
   }
 }
 
@@ -77,7 +76,7 @@ Registration register_upright(const std::vector<Vec3>& source, const SampledSurf
     out.matched = source.empty() ? 0.0 : static_cast<double>(matched) / static_cast<double>(source.size());
     if (matched < 4) return out;
     out.rms = std::sqrt(squared / static_cast<double>(matched));
-    const Eigen::Vector4d step = normal_matrix.ldlt().solve(right);
+    const Eigen::Vector4d step = solve_symmetric(normal_matrix, right);
     const Mat3 turn = Eigen::AngleAxisd(step[0], Vec3::UnitZ()).toRotationMatrix();
     out.T_target_source = RigidTransform{turn, middle - turn * middle + step.tail<3>()} * out.T_target_source;
     const bool narrowest = within <= kLeastReach * reach;

@@ -2,11 +2,12 @@
 // Copyright (c) 2026 the unseen authors
 #include "cuboids/upright_box.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include "core/linear.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -127,7 +128,7 @@ Plane plane_of_most(std::span<const Sample> samples) {
     }
     if (count < 3.0) break;
     const Vec3 mean = first / count;
-    const Vec3 fitted = Eigen::SelfAdjointEigenSolver<Mat3>(second / count - mean * mean.transpose()).eigenvectors().col(0);
+    const Vec3 fitted = symmetric_eigen<3>(second / count - mean * mean.transpose()).vectors.col(0);
     plane = {fitted, fitted.dot(origin + mean)};
   }
   return plane;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear.h"
 #include "interactions/tilted_floor.h"
 #include "interactions/upright.h"
 
@@ -107,7 +108,7 @@ Floor fit_floor(const std::vector<Foot>& feet, int people, const Usual& usual, d
   for (int round = 0; round < 30; ++round) {
     const Eigen::MatrixXd weighted = rows.transpose() * (weights / stance).asDiagonal();
     normal = prior.transpose() * prior + weighted * rows;
-    solution = normal.ldlt().solve(prior.transpose() * prior_right + weighted * right);
+    solution = solve_symmetric(normal, prior.transpose() * prior_right + weighted * right);
     weights = 1 / (1 + ((rows * solution - right) / kRough).array().square());
   }
   Floor floor;

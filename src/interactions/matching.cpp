@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::interactions {
@@ -137,7 +138,7 @@ void refine(Match& match, const Glance& glance, const Scenelet& scenelet, const 
   Normal at = normal_of(glance, scenelet, match.placement, view);
   for (int round = 0; round < kRounds; ++round) {
     const Mat3 damped = at.hessian + damping * Mat3(at.hessian.diagonal().asDiagonal()) + 1e-9 * Mat3::Identity();
-    const Vec3 step = -damped.ldlt().solve(at.gradient);
+    const Vec3 step = -solve_symmetric(damped, at.gradient);
     Placement moved = match.placement;
     moved.angle += step[0];
     moved.position += Vec3(step[1], step[2], 0);

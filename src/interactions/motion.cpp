@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear.h"
+
 namespace unseen::interactions {
 namespace {
 
@@ -52,7 +54,7 @@ Vec3 place_pelvis(const Draft& draft, const Sight& sight, const Vec3& camera) {
     normal += weight;
     right += weight * (camera - draft.local.col(k));
   }
-  return normal.ldlt().solve(right);
+  return solve_symmetric(normal, right);
 }
 
 /// Moves each joint that is seen towards its ray, and its limb's far joints along with it; bones keep their lengths.

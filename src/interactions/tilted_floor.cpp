@@ -2,10 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "interactions/tilted_floor.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear.h"
 #include "interactions/upright.h"
 
 namespace unseen::interactions {
@@ -125,7 +125,7 @@ Fit fit(const std::vector<Body>& bodies, const Unknowns& start, const Unknowns& 
     evaluate(best.x, &best.normal, &gradient);
     Eigen::MatrixXd damped = best.normal;
     damped.diagonal() *= 1 + damping;
-    const Unknowns next = best.x - damped.ldlt().solve(gradient);
+    const Unknowns next = best.x - solve_symmetric(damped, gradient);
     const double cost = std::abs(next[1]) < kMostTilt ? evaluate(next, nullptr, nullptr) : INFINITY;
     if (!(cost < best.cost)) {
       damping *= 10;

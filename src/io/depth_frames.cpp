@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include "io/depth_frames.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 
+#include "core/linear.h"
 #include "io/file_bytes.h"
 #include "io/text.h"
 #include "unseen/core/error.h"
@@ -50,8 +50,7 @@ RigidTransform read_pose(const fs::path& path) {
     throw InputError(path.string(), "pose", "a matrix that is not rigid",
                      "rotation and translation, camera to world");
   // Files round; the nearest rotation takes that out.
-  const Eigen::JacobiSVD<Mat3> svd(pose.rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  pose.rotation = svd.matrixU() * svd.matrixV().transpose();
+  pose.rotation = nearest_orthonormal(pose.rotation);
   return pose;
 }
 

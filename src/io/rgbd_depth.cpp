@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <iostream>
 #include <limits>

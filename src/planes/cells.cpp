@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::planes {
@@ -54,9 +55,9 @@ Moments gather(const VoxelGrid& grid, std::size_t voxel, const Vec3& center, dou
 /// The line that most input normals of a voxel lie along, if they agree; else zero.
 Vec3 input_normal(const Mat3& sum, const Space& space) {
   if (!(sum.trace() > 0.5)) return Vec3::Zero();
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen(sum);
-  if (eigen.eigenvalues()[2] < 0.8 * sum.trace()) return Vec3::Zero();
-  const Vec3 n = space.admissible(eigen.eigenvectors().col(2));
+  const SymmetricEigen<3> eigen = symmetric_eigen(sum);
+  if (eigen.values[2] < 0.8 * sum.trace()) return Vec3::Zero();
+  const Vec3 n = space.admissible(eigen.vectors.col(2));
   return n.norm() > 0.5 ? Vec3(n.normalized()) : Vec3::Zero();
 }
 

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #include "planes/doubt.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <tuple>

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <optional>
 
@@ -54,34 +53,6 @@ struct PlaneFit {
   double spread_u = 0, spread_v = 0;          ///< m, standard deviation along u and v (2D: v is the flat axis, 0)
 };
 
-inline PlaneFit fit_plane(const Moments& m, const Space& space) {
-  PlaneFit fit;
-  const double n = std::max(m.count, 1.0);
-  const auto spread = [&](double eigenvalue) { return std::sqrt(std::max(eigenvalue, 0.0) / n); };
-  if (space.is_2d()) {
-    const Vec3 a = any_orthogonal(*space.flat_axis), b = space.flat_axis->cross(a);
-    Eigen::Matrix2d s;
-    s << a.dot(m.scatter * a), a.dot(m.scatter * b), b.dot(m.scatter * a), b.dot(m.scatter * b);
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
-    eigen.computeDirect(s);
-    const auto combine = [&](int i) { return Vec3(eigen.eigenvectors()(0, i) * a + eigen.eigenvectors()(1, i) * b); };
-    fit.normal = combine(0);
-    fit.u = combine(1);
-    fit.v = *space.flat_axis;
-    fit.rms = spread(eigen.eigenvalues()[0]);
-    fit.spread_u = spread(eigen.eigenvalues()[1]);
-    return fit;
-  }
-  Eigen::SelfAdjointEigenSolver<Mat3> eigen;
-  eigen.computeDirect(m.scatter);
-  fit.normal = eigen.eigenvectors().col(0);
-  fit.v = eigen.eigenvectors().col(1);
-  fit.u = eigen.eigenvectors().col(2);
-  // The closed form loses small eigenvalues; along its axes they are all there.
-  fit.rms = spread(fit.normal.dot(m.scatter * fit.normal));
-  fit.spread_v = spread(fit.v.dot(m.scatter * fit.v));
-  fit.spread_u = spread(eigen.eigenvalues()[2]);
-  return fit;
-}
+PlaneFit fit_plane(const Moments& m, const Space& space);
 
 }  // namespace unseen::planes

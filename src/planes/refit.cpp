@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear.h"
 #include "planes/arrange.h"
 
 namespace unseen::planes {
@@ -95,10 +95,7 @@ std::vector<Vec3> step_of(const Model& model, const Turns& t) {
   for (std::size_t f = 0; f < of_frame.size(); ++f)
     for (const auto& [i, u] : of_frame[f])
       for (const auto& [k, v] : of_frame[f]) system(i, k) += scale[i] * u.dot(inverse[f] * v) * scale[k];
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(kRedundant);
-  solver.compute(system);
-  const Eigen::VectorXd multiplier = scale.cwiseProduct(solver.solve(scale.cwiseProduct(right)));
+  const Eigen::VectorXd multiplier = scale.cwiseProduct(least_norm(system, scale.cwiseProduct(right), kRedundant));
   for (std::size_t f = 0; f < of_frame.size(); ++f)
     for (const auto& [i, u] : of_frame[f]) step[f] -= inverse[f] * u * multiplier[i];
   return step;

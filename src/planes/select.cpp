@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/linear.h"
 #include "planes/arrange.h"
 
 namespace unseen::planes {
@@ -151,11 +152,11 @@ OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Ve
         information += weight * r.jacobian * r.jacobian.transpose();
         gradient -= weight * r.value * r.jacobian;
       }
-    Eigen::SelfAdjointEigenSolver<Mat3> eigen(information);
+    const SymmetricEigen<3> eigen = symmetric_eigen(information);
     Vec3 w = Vec3::Zero();
     for (int i = 0; i < 3; ++i)
-      if (eigen.eigenvalues()[i] > 1e-9 * eigen.eigenvalues()[2])
-        w += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).dot(gradient) / eigen.eigenvalues()[i];
+      if (eigen.values[i] > 1e-9 * eigen.values[2])
+        w += eigen.vectors.col(i) * eigen.vectors.col(i).dot(gradient) / eigen.values[i];
     result.axes = turned(result.axes, w);
     if (w.norm() < 1e-12) break;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "core/linear.h"
 #include "planes/describe.h"
 #include "unseen/core/quantile.h"
 
@@ -47,7 +47,7 @@ Votes votes_for(const Vec3& up, const Arrangement& result) {
     if (line_angle(n, up) > kPi / 2 - kPlumb) walls += p.area * across * across.transpose();
     if (line_angle(n, up) < kLevel) votes.level += p.area;
   }
-  votes.plumb = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(walls, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  votes.plumb = symmetric_eigen(walls).values[0];
   return votes;
 }
 

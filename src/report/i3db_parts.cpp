@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
+#include "core/linear.h"
 #include "io/text.h"
 #include "unseen/core/error.h"
 
@@ -40,8 +40,7 @@ Mat3 read_axes(const JsonField& json) {
   Mat3 axes;
   for (int r = 0; r < 3; ++r) axes.row(r) = rows[static_cast<std::size_t>(r)].vector();
   if (!((axes.transpose() * axes - Mat3::Identity()).cwiseAbs().maxCoeff() < 1e-3)) json.fail("columns of length 1 at right angles");
-  const Eigen::JacobiSVD<Mat3> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  axes = svd.matrixU() * svd.matrixV().transpose();
+  axes = nearest_orthonormal(axes);
   if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
   return axes;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/linear.h"
 #include "report/interactions_motion.h"
 #include "unseen/report/interactions_files.h"
 
@@ -110,7 +111,7 @@ std::vector<Quaterniond> rotations_of(const Pose& pose, const std::vector<Quater
     } else if (children.size() == 1) {
       const Node& child = nodes()[static_cast<std::size_t>(children.front())];
       const Vec3 bone = pose.col(child.joint) - pose.col(node.joint);
-      local[i] = bone.norm() > 1e-9 ? Quaterniond::FromTwoVectors(child.rest, parent.conjugate() * bone) : last[i];
+      local[i] = bone.norm() > 1e-9 ? turn_between(child.rest, parent.conjugate() * bone) : last[i];
       world[i] = parent * local[i];
     } else {
       world[i] = parent;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/linear.h"
 #include "report/glb_boxes.h"
 #include "report/interactions_motion.h"
 #include "report/interactions_structures.h"
@@ -57,7 +58,7 @@ Motion bone_motion(const Person& person, double fps, Joint from, Joint to) {
   for (const PersonFrame& f : person.frames) {
     const Vec3 bone = f.pose.col(to) - f.pose.col(from);
     if (bone.norm() > 1e-9) {
-      turn = (Eigen::Quaterniond::FromTwoVectors(last, bone) * turn).normalized();
+      turn = (turn_between(last, bone) * turn).normalized();
       last = bone;
     }
     motion.rotations.push_back(turn);

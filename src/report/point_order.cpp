@@ -2,9 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "report/point_order.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cstdint>
+
+#include "core/linear.h"
 
 namespace unseen::report {
 namespace {
@@ -62,8 +63,7 @@ Plane fitted_plane(std::span<const Vec3> points, std::optional<int> flat) {
   Mat3 scatter = Mat3::Zero();
   for (const Vec3& p : points) scatter += (p - mean) * (p - mean).transpose();
   if (flat) scatter(*flat, *flat) = 2.0 * scatter.trace() + 1.0;  // beyond the others: the last axis, not the normal
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(scatter);
-  const Vec3 normal = eigen.eigenvectors().col(0);
+  const Vec3 normal = symmetric_eigen(scatter).vectors.col(0);
   return {normal, normal.dot(mean)};
 }
 

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 
+#include "core/linear.h"
 #include "interactions/method_samples.h"
 #include "interactions/scenelets_sample.h"
 #include "unseen/core/random.h"
@@ -122,7 +124,7 @@ TEST(Path, IsTheDenseSolutionOfItsLeastSquares) {
         rows.block<2, 2>(row, 2 * k + 2) = step * Eigen::Matrix2d::Identity();
         values.segment<2>(row) = step * velocity / kFps;
       }
-      x = rows.colPivHouseholderQr().solve(values);
+      x = least_squares(rows, values);
       for (std::size_t i = 0; i < readings.size(); ++i) {
         const Vec2 off = whiten[i] * (x.segment<2>(2 * (readings[i].frame - kFirst)) - readings[i].pelvis);
         trust[i] = 1 / (1 + 5 * off.squaredNorm() / 4);
