@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "core/linear.h"
 #include "unseen/core/random.h"
 #include "unseen/interactions/skeleton.h"
 
@@ -119,7 +120,7 @@ TEST(PlacementFit, NoAngleIsBetter) {
     for (int a = 0; a < 720; ++a) {
       const double angle = kPi * a / 360;
       const Vec2 turn(std::cos(angle), std::sin(angle));
-      const Vec2 best = -position.ldlt().solve(cost.quadratic.bottomLeftCorner<2, 2>() * turn + cost.linear.tail<2>());
+      const Vec2 best = -solve_symmetric<2>(position, cost.quadratic.bottomLeftCorner<2, 2>() * turn + cost.linear.tail<2>());
       least = std::min(least, cost.at(angle, best));
       most = std::max(most, cost.at(angle, best));
     }
