@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 #include "planes/patches.h"
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kFirstFit = 12.0;    // cells of a region before its own fit counts
 constexpr double kRefitGrowth = 1.3;  // the running fit is renewed when a region has grown by this factor
+constexpr int kMostFailures = 10;     // what was in so many regions that are no surfaces starts none: clutter would be grown from each of its voxels
 
 double least_points(const Space& space) { return space.is_2d() ? 5 : 8; }
 
@@ -44,11 +46,12 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
     cell.push_back({grid.moments[i].mean, cells.normal[i], cells.reach[i], cells.tolerance[i]});
   VoxelSet open = grid.empty_set();  // neither taken by a region nor in the one that grows
   for (const auto& [variation, i] : order) grid.insert(open, i);
+  std::vector<std::uint8_t> failures(grid.size(), 0);
   CellSets regions;
   std::size_t visited = 0;
   for (const auto& [variation, seed] : order) {
     if ((++visited & 0xfff) == 0) context.progress(static_cast<double>(visited) / order.size());
-    if (!grid.contains(open, seed)) continue;
+    if (!grid.contains(open, seed) || failures[seed] >= kMostFailures) continue;
     std::vector<int> region = {seed};
     Moments sum = grid.moments[seed];
     Vec3 normal = cells.normal[seed], center = sum.mean;
@@ -90,7 +93,10 @@ CellSets grow_regions(const VoxelGrid& grid, const Cells& cells, const Space& sp
         rest += grid.moments[i];
       }
     }
-    if (kept.empty() || !is_planar(rest, fit_plane(rest, space), space, grid.edge)) continue;
+    if (kept.empty() || !is_planar(rest, fit_plane(rest, space), space, grid.edge)) {
+      for (const int i : region) failures[i] = std::min<std::uint8_t>(failures[i] + 1, kMostFailures);
+      continue;
+    }
     for (const int i : kept) grid.erase(open, i);
     std::sort(kept.begin(), kept.end());
     regions.push_back(std::move(kept));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "planes/patches.h"
 
@@ -30,13 +29,8 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     for (const int i : regions[r]) region_of[i] = static_cast<int>(r);
   }
   const std::vector<int> region_of_block = grid.labels_of_blocks(region_of);
-  std::vector<int> order(regions.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return size[a] < size[b]; });
   const auto squared_distances = [&](const Moments& m, int r) { return m.squared_distances(planes[r].normal, planes[r].offset); };
-  CellSets kept;
-  for (const int r : order) {
-    context.check();
+  const auto is_rim = [&](int r) {
     const auto no_other = [&](std::uint32_t block) {
       return region_of_block[block] == VoxelGrid::kNone || region_of_block[block] == r;
     };
@@ -53,19 +47,20 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
       });
       if (std::isinf(least)) {
         unexplained += m.count;
-        if (unexplained > kMostUnexplained * points[r]) break;
+        if (unexplained > kMostUnexplained * points[r]) return false;
       } else {
         own += squared_distances(m, r);
         others += least;
       }
     }
-    const bool rim = unexplained <= kUnexplained * points[r] || (unexplained <= kMostUnexplained * points[r] && others < own);
-    if (!rim) {
-      kept.push_back(std::move(regions[r]));
-    } else {
-      for (const int i : regions[r]) region_of[i] = -1;
-    }
-  }
+    return unexplained <= kUnexplained * points[r] || (unexplained <= kMostUnexplained * points[r] && others < own);
+  };
+  // Only larger regions explain a rim's points, so that each is judged by itself.
+  std::vector<char> rim(regions.size());
+  parallel_blocks(context, regions.size(), 1, [&](std::size_t r, std::size_t) { rim[r] = is_rim(static_cast<int>(r)); });
+  CellSets kept;
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    if (!rim[r]) kept.push_back(std::move(regions[r]));
   std::sort(kept.begin(), kept.end());
   return kept;
 }
