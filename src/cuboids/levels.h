@@ -19,6 +19,10 @@ struct Scan {
   const PointGraph& graph;
   const Faces& faces;
   bool is_image = true;  ///< depth along z, noise in 1/z the same everywhere
+  std::span<const int> pixel_of_point{}, point_of_pixel{};  ///< of an image
+  int width = 0;                                            ///< pixels, of an image
+
+  int height() const { return static_cast<int>(point_of_pixel.size()) / width; }
 };
 
 /// Faces of one plane.

@@ -179,7 +179,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
   seen.graph = link_points(frame, measured, depth_noise(frame, options), options.gap, context);
   context.check();
   const SupportFaces flat = faces_of_supports(frame, measured, seen.graph);
-  const Scan scan{measured.points, seen.graph, flat.faces, !frame.is_fused()};
+  const Scan scan{measured.points, seen.graph, flat.faces, !frame.is_fused(), measured.pixel_of_point, measured.point_of_pixel, frame.camera.width};
   context.check();
 
   FoundSupports found;

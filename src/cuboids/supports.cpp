@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "cuboids/cut_off.h"
 #include "unseen/core/convex.h"
 #include "unseen/core/quantile.h"
 
@@ -20,6 +21,7 @@ constexpr double kDeskShare = 0.1;            // … of a desk that no mask name
 constexpr double kCarryHeight = 0.5;          // m
 constexpr double kWallShare = 0.25;           // of the square of the scene's radius
 constexpr double kMostBehindWall = 0.03;      // of the points
+constexpr double kSureTilt = 0.05;            // rad, of a wall of which no more than a strip is seen
 constexpr double kOver = 0.25, kBeside = 1.0, kClearlyBehind = 0.05;  // of a wall's height and width; m
 constexpr double kDeskArea = 0.4;  // m²; what is flat and as large may carry things itself
 constexpr double kBelow = 0.1, kBelowShare = 0.05;  // m below the ground, share of the points
@@ -114,6 +116,16 @@ bool ends_before_its_background(const Scan& scan, const Level& level, const Vec3
   return ends(0) || (ends(1) && ends(2));
 }
 
+/// Whether the picture shows but a strip of a wall, enough to tell how it stands, and not a piece of one that was found.
+bool is_strip_of_wall(const Scan& scan, const Level& level, const std::vector<Support>& found) {
+  const std::vector<int> points = points_of(scan, level.faces);
+  const auto is_of = [&](const Support& wall) {
+    const auto on = std::count_if(points.begin(), points.end(), [&](int i) { return std::abs(wall.plane.signed_distance(scan.points[i])) < 6.0 * scan.graph.sigma[i]; });
+    return 2 * static_cast<std::size_t>(on) > points.size();
+  };
+  return goes_on_beyond_picture(scan, level) && tilt_error(scan, points) < kSureTilt && std::none_of(found.begin(), found.end(), is_of);
+}
+
 /// Walls go down to the ground, behind what hides them there.
 void extend_down(Level& wall, const Plane& ground, const Vec3& across, const Vec3& along) {
   std::vector<Vec2> corners = wall.outline;
@@ -198,7 +210,7 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
 
   const double smallest_wall = kWallShare * std::pow(scene_radius(scan), 2);
   for (Level& wall : coplanar(scan, upright)) {
-    if (wall.area < smallest_wall) continue;
+    if (wall.area < smallest_wall && !is_strip_of_wall(scan, wall, found.supports)) continue;
     const Vec3 across = found.up.cross(wall.plane.normal).normalized(), along = wall.plane.normal.cross(across);
     set_outline(scan, wall, across, along);
     if (!bounds_the_scene(scan, wall, across, along) || ends_before_its_background(scan, wall, across, along)) continue;

@@ -231,6 +231,38 @@ TEST(Walls, AreNotPiercedByWhatStandsAgainstThem) {
   }
 }
 
+/// A camera that looks down at 45°: of what stands more than two metres away it sees the foot alone.
+Scene before_the_foot_of(const OrientedBox& far) {
+  Scene scene;
+  scene.height = 1.0;
+  scene.pitch = radians(45.0);
+  scene.boxes = {upright(0.1, 1.2, 0, {0.3, 0.2, 0.2}, 15), far};
+  return scene;
+}
+
+TEST(Walls, AreOnesOfWhichThePictureShowsAStrip) {
+  for (const double distance : {2.3, 2.4})
+    for (const double yaw : {0.0, 20.0, -35.0}) {
+      const OrientedBox wall = upright(0.0, distance, 0, {16.0, 0.1, 4.0}, yaw);
+      const Perceived p = perceive(render(before_the_foot_of(wall)));
+      ASSERT_EQ(p.seen.supports.size(), 2u) << distance << " " << yaw;
+      EXPECT_GT(std::abs(p.seen.supports[1].plane.normal.dot(wall.axes.col(1))), std::cos(radians(2.0))) << distance << " " << yaw;
+      EXPECT_EQ(p.cuboids.size(), 1u) << distance << " " << yaw;
+    }
+}
+
+TEST(Walls, AreNotCartonsOfWhichThePictureShowsTheFoot) {
+  for (const double x : {-1.1, -0.4, 0.6})
+    for (const double yaw : {0.0, 10.0, 35.0})
+      for (const double width : {0.4, 0.8}) {
+        Scene scene = before_the_foot_of(upright(x, 2.2, 0, {width, 0.5, 1.0}, yaw));
+        scene.boxes.push_back(upright(0.0, 4.0, 0, {16.0, 0.1, 4.0}, 0));  // not in the picture
+        const Perceived p = perceive(render(scene));
+        EXPECT_EQ(p.seen.supports.size(), 1u) << x << " " << yaw << " " << width;
+        EXPECT_EQ(p.cuboids.size(), 2u) << x << " " << yaw << " " << width;
+      }
+}
+
 /// A side table far away, of less than a tenth of the floor's pixels: what masks name stands on it, and on the floor beside it.
 TEST(Desks, ThatAreSmallInThePictureCarryWhatMasksName) {
   Scene scene;
