@@ -18,6 +18,8 @@ constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that 
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kMuchLess = 0.6, kLeast = 0.1;  // of the doubt at first: when to look again, and what is left at least
 constexpr int kAgain = 3;  // what was in the largest frame by chance leaves it, and then more of the doubt goes
+constexpr double kFlat = 0.2;      // rad: between patches that go on in each other
+constexpr double kMeant = 9;       // times the doubt's variance: an edge of another angle
 constexpr double kRough = 2;       // times the typical noise: two sides of a wall, or more than one thing
 constexpr double kFewPoints = 15;  // of these, clutter at a rim is a part that large walls do not show
 
@@ -68,6 +70,19 @@ void add_squares(const OrientationFrame& start, const std::vector<Vec3>& locals,
   }
 }
 
+/// The doubt that squares of deviations tell, each over what it would be at the systematic doubt, with an area.
+double doubt_of(std::vector<std::pair<double, double>> squares) {
+  if (squares.size() < kEnough) return 1.0;
+  const double safety = 2 + 4 / std::sqrt(static_cast<double>(squares.size()));
+  return std::clamp(safety * std::sqrt(weighted_quantile(std::move(squares), kQuantile) / kUsual), kLeast, 1.0);
+}
+
+/// Variance (rad²) of a patch's tilt about an axis in it.
+double variance_about(const Patch& patch, const Vec3& axis, double variance_u, double variance_v) {
+  const Vec3 tilt = axis.cross(patch.fit.normal);
+  return std::pow(tilt.dot(patch.fit.u), 2) * variance_u + std::pow(tilt.dot(patch.fit.v), 2) * variance_v;
+}
+
 }  // namespace
 
 double shown_doubt(const Patches& patches, const Selection& s, const std::vector<Vec3>& locals) {
@@ -77,9 +92,26 @@ double shown_doubt(const Patches& patches, const Selection& s, const std::vector
   std::vector<std::pair<double, double>> squares;  // of tilts, over what they would be at the systematic doubt; the patch's area
   for (std::size_t f = 0; f < s.frames.size(); ++f)
     if (members[f].size() >= kFewestMembers) add_squares(s.frames[f], locals, members[f], squares);
-  if (squares.size() < kEnough) return 1.0;
-  const double safety = 2 + 4 / std::sqrt(static_cast<double>(squares.size()));
-  return std::clamp(safety * std::sqrt(weighted_quantile(std::move(squares), kQuantile) / kUsual), kLeast, 1.0);
+  return doubt_of(std::move(squares));
+}
+
+double doubt_at_edges(const Patches& patches, const AngleSet& angles) {
+  std::vector<std::pair<double, double>> squares;
+  for (const auto& [a, b] : patches.adjoining) {
+    const Patch &pa = patches.patches[a], &pb = patches.patches[b];
+    const double angle = line_angle(pa.fit.normal, pb.fit.normal);
+    if (angle < kFlat) continue;
+    const Vec3 axis = pa.fit.normal.cross(pb.fit.normal).normalized();
+    double systematic = 0, noise = 0;
+    for (const Patch* p : {&pa, &pb}) {
+      systematic += variance_about(*p, axis, p->systematic_u, p->systematic_v);
+      noise += variance_about(*p, axis, p->doubt_u - p->systematic_u, p->doubt_v - p->systematic_v);
+    }
+    const double square = std::pow(angles.deviation(angle), 2);
+    if (!(noise < kPrecise * systematic) || square > kMeant * systematic) continue;
+    squares.emplace_back(square / systematic, std::min(pa.area, pb.area));
+  }
+  return doubt_of(std::move(squares));
 }
 
 Selection select_as_built(Patches& patches, const AngleSet& angles, const Space& space, const Options& options, Context& context) {
@@ -89,7 +121,8 @@ Selection select_as_built(Patches& patches, const AngleSet& angles, const Space&
   if (selection.local_fits) return selection;
   double doubt = 1;
   for (int again = 0; again < kAgain && doubt > kLeast; ++again) {
-    const double shown = shown_doubt(patches, selection, local_directions(angles, space));
+    double shown = shown_doubt(patches, selection, local_directions(angles, space));
+    if (!space.is_2d()) shown = std::min(shown, doubt_at_edges(patches, angles));
     if (shown > kMuchLess) break;
     const double less = std::max(kLeast, doubt * shown);
     reduce_doubt(patches, doubt, less);

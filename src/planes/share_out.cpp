@@ -8,6 +8,7 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kIndistinct = 4.0;  // χ²: two standard errors
+constexpr double kWorse = 9.0;        // χ² by which an orientation may suit a patch less than another one that is nearly the same
 constexpr double kDominant = 1.0 / 3;  // of the area
 
 /// A patch to which a frame offers an orientation.
@@ -62,7 +63,9 @@ void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, do
       const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
       if (c.local < 0) continue;
       const Vec3 offered = s.frames[k].direction(locals[c.local]);
-      if (line_angle(offered, has) < kSameOrientation || (!space.is_2d() && tilt_chi2(patch, offered) < kIndistinct)) offers[k].push_back({j, c.local});
+      const double chi2 = tilt_chi2(patch, offered);
+      const bool same = line_angle(offered, has) < kSameOrientation && chi2 < tilt_chi2(patch, has) + kWorse;
+      if (same || (!space.is_2d() && chi2 < kIndistinct)) offers[k].push_back({j, c.local});
     }
   }
   std::vector<char> given(patches.patches.size(), 0);

@@ -17,6 +17,18 @@ struct Boxes {
   std::vector<Vec3> normal;        ///< per face
 };
 
+void add_box(Boxes& b, const Mat3& axes, const Vec3& half, const Vec3& centre, double spacing, double noise, Random& random) {
+  for (int a = 0; a < 3; ++a)
+    for (const int side : {-1, 1}) {
+      const Vec3 u = 2 * half[(a + 1) % 3] * axes.col((a + 1) % 3), v = 2 * half[(a + 2) % 3] * axes.col((a + 2) % 3);
+      b.first.push_back(b.cloud.size());
+      b.normal.push_back(axes.col(a));
+      test::add_rectangle(b.cloud, centre + side * half[a] * axes.col(a) - 0.5 * (u + v), u, v, spacing, noise, random);
+    }
+}
+
+Mat3 turned_by(double yaw) { return Eigen::AngleAxisd(yaw, Vec3::UnitZ()).toRotationMatrix(); }
+
 /// A room of 12 m with boxes that are turned freely, or about the vertical alone.
 Boxes boxes_in_a_room(int across, bool freely, std::uint64_t seed) {
   const double spacing = 0.03, noise = 0.004;
@@ -25,16 +37,10 @@ Boxes boxes_in_a_room(int across, bool freely, std::uint64_t seed) {
   for (int x = 0; x < across; ++x)
     for (int y = 0; y < across; ++y) {
       const Eigen::Quaterniond any(random.normal(), random.normal(), random.normal(), random.normal());
-      const Mat3 axes = freely ? any.normalized().toRotationMatrix() : Eigen::AngleAxisd(random.uniform(0, kPi), Vec3::UnitZ()).toRotationMatrix();
+      const Mat3 axes = freely ? any.normalized().toRotationMatrix() : turned_by(random.uniform(0, kPi));
       const Vec3 half(random.uniform(0.2, 0.5), random.uniform(0.2, 0.5), random.uniform(0.2, 0.5));
       const Vec3 centre((x + 0.5) * 12.0 / across, (y + 0.5) * 12.0 / across, 1.5);
-      for (int a = 0; a < 3; ++a)
-        for (const int side : {-1, 1}) {
-          const Vec3 u = 2 * half[(a + 1) % 3] * axes.col((a + 1) % 3), v = 2 * half[(a + 2) % 3] * axes.col((a + 2) % 3);
-          b.first.push_back(b.cloud.size());
-          b.normal.push_back(axes.col(a));
-          test::add_rectangle(b.cloud, centre + side * half[a] * axes.col(a) - 0.5 * (u + v), u, v, spacing, noise, random);
-        }
+      add_box(b, axes, half, centre, spacing, noise, random);
     }
   b.first.push_back(b.cloud.size());
   for (const Vec3& p : test::box_cloud(Vec3::Zero(), {12, 12, 3}, 2 * spacing, noise, seed).positions) b.cloud.positions.push_back(p);
@@ -261,6 +267,41 @@ TEST(Askew, DozensOfBoxesKeepTheirOrientations) {
   }
 }
 
+/// Boxes on a floor, some of them but a degree apart, and each with exact edges.
+TEST(Askew, BoxesOnAFloorTellByTheirEdgesHowExactTheyAre) {
+  for (const std::uint64_t seed : {1, 2}) {
+    Random random(seed);
+    Boxes boxes;
+    for (int i = 0; i < 40; ++i) {
+      const Vec3 half = 0.5 * Vec3(random.uniform(0.4, 0.9), random.uniform(0.4, 0.9), random.uniform(0.4, 0.9));
+      add_box(boxes, turned_by(random.uniform(0, kPi / 2)), half, {0.5 + 1.4 * (i % 8), 0.5 + 1.6 * (i / 8), half.z()}, 0.03, 0.003, random);
+    }
+    boxes.first.push_back(boxes.cloud.size());
+    test::add_rectangle(boxes.cloud, {-1, -1, 0}, {12.5, 0, 0}, {0, 10, 0}, 0.03, 0.003, random);
+    const std::vector<double> errors = errors_of(boxes, test::run(boxes.cloud, Options()));
+    EXPECT_LT(errors[errors.size() * 9 / 10], 0.3) << seed;
+    EXPECT_LT(errors.back(), 0.8) << seed;
+  }
+}
+
+/// What is turned by half a degree is no reason to turn what is not.
+TEST(Askew, ACabinetAlongTheWallsStaysSoBesideOthersThatAreNot) {
+  Random random(1);
+  Boxes boxes;
+  int at = 0;
+  for (const double turn : {0.0, 0.3, 0.5, 0.8, 1.2, 1.6, 2.0, 2.5}) {
+    add_box(boxes, turned_by(radians(turn)), {0.45, 0.3, 0.55}, {1.2 + 1.8 * (at % 4), 1.6 + 2.6 * (at / 4), 0.55}, 0.026, 0.0, random);
+    ++at;
+  }
+  for (const Vec3& p : test::box_cloud(Vec3::Zero(), {8, 6, 3}, 0.026, 0.0, 1).positions) boxes.cloud.positions.push_back(p);
+  const test::Run r = test::run(boxes.cloud, Options());
+  boxes.first.resize(7);  // the first cabinet alone
+  boxes.normal.resize(6);
+  EXPECT_LT(errors_of(boxes, r).back(), 0.03);
+  for (const ArrangedPlane& p : r.result.planes)
+    if (p.area > 10) EXPECT_GT(p.plane.normal.cwiseAbs().maxCoeff(), std::cos(radians(0.03))) << p.plane.normal.transpose();
+}
+
 /// What stands askew by less than walls of buildings usually do is kept where a scene's own walls do better.
 TEST(Askew, FurnitureTurnedByADegreeKeepsItInAnExactRoom) {
   SynthOptions synth;
@@ -313,6 +354,34 @@ TEST(Doubt, FollowsTheScatterOfWalls) {
   EXPECT_EQ(shown_by_walls(0.0, 4), 1.0);  // too few to tell
   EXPECT_EQ(shown_by_walls(0.5, 60, 0, 1000), 1.0);  // a roof that turns the frame with itself says nothing
   EXPECT_LT(shown_by_walls(0.0, 6, 5), 0.3);  // walls tell, not what is in their frame by chance
+}
+
+/// Boxes that are turned by half a degree against each other, each of patches that adjoin at angles which are off by `sd` degrees.
+double shown_by_edges(double sd, std::size_t boxes) {
+  Random random(4);
+  Patches patches;
+  for (std::size_t b = 0; b < boxes; ++b) {
+    const Mat3 axes = turned_by(radians(0.5 * random.normal()));
+    for (int a = 0; a < 3; ++a) {
+      Patch p;
+      p.fit.normal = Eigen::AngleAxisd(radians(sd) * random.normal(), axes.col((a + 1) % 3)) * Vec3(axes.col(a));
+      p.fit.u = any_orthogonal(p.fit.normal);
+      p.fit.v = p.fit.normal.cross(p.fit.u);
+      p.area = 1;
+      p.systematic_u = p.systematic_v = std::pow(radians(0.5), 2);
+      p.doubt_u = p.doubt_v = 1.01 * p.systematic_u;
+      for (int other = 0; other < a; ++other) patches.adjoining.emplace_back(static_cast<int>(patches.patches.size()) - a + other, static_cast<int>(patches.patches.size()));
+      patches.patches.push_back(p);
+    }
+  }
+  return doubt_at_edges(patches, make_angles({radians(90)}));
+}
+
+TEST(Doubt, IsWhatEdgesShow) {
+  EXPECT_EQ(shown_by_edges(0.0, 20), 0.1);
+  EXPECT_NEAR(shown_by_edges(0.1, 40), 2.4 * 0.1 / 0.5 / std::sqrt(2.0), 0.12);  // one of the two turns about the edge
+  EXPECT_EQ(shown_by_edges(0.8, 40), 1.0);
+  EXPECT_EQ(shown_by_edges(0.0, 3), 1.0);  // too few to tell
 }
 
 /// A box that is turned freely is nearly orthogonal to some axis of some other one, by chance.
