@@ -11,6 +11,8 @@ namespace unseen::planes {
 namespace {
 
 constexpr int kLargestRaster = 1500;  // cells along an edge; larger planes get larger cells
+constexpr int kWidest = 16;           // cells, that gaps are closed by at most
+constexpr int kFewNear = 14;           // cells with points within reach of one that is sparse: where there are more, chance leaves few gaps that half the reach does not close
 
 struct Raster {
   int width = 0, height = 0;
@@ -32,29 +34,90 @@ Raster rasterize(const std::vector<Vec2>& points, const Vec2& low, const Vec2& h
   return r;
 }
 
-/// Marks cells with full ones (or, to erode, only such) within `radius` along both axes: for each cell of a row,
-/// `run` counts those above and below that have the value that wins.
-Raster dilate(const Raster& r, int radius, bool erode) {
+/// Each cell combined with those within `radius` along both axes; `nothing` lies outside. Windows are put together from halves (van Herk), so that a
+/// pass over the cells takes few steps, for 16 cells at a time.
+template <class Combine>
+Raster combined(const Raster& r, int radius, std::uint8_t nothing, Combine combine) {
+  const std::size_t window = 2 * static_cast<std::size_t>(radius) + 1;
   Raster to = r;
-  std::vector<int> run(r.width, 0);
-  const auto count_row = [&](int y, int weight) {
-    if (y < 0 || y >= r.height) return;
-    const std::uint8_t* row = &r.cells[static_cast<std::size_t>(y) * r.width];
-    for (int x = 0; x < r.width; ++x) run[x] += (row[x] != erode) * weight;
+  const auto slide = [&](std::size_t stride, std::size_t count, std::vector<std::uint8_t>& padded, std::uint8_t* out) {  // over `count` rows of `stride` cells
+    std::size_t width = 1;
+    for (; 2 * width <= window; width *= 2)
+      for (std::size_t i = 0, end = padded.size() - width * stride; i < end; ++i) padded[i] = combine(padded[i], padded[i + width * stride]);
+    const std::size_t second = (window - width) * stride;
+    for (std::size_t i = 0; i < count * stride; ++i) out[i] = combine(padded[i], padded[i + second]);
   };
-  for (int y = 0; y < radius; ++y) count_row(y, 1);
-  for (int y = 0; y < r.height; ++y) {
-    count_row(y + radius, 1);
-    count_row(y - radius - 1, -1);
-    int along = 0;
-    for (int x = 0; x < std::min(radius, r.width); ++x) along += run[x] > 0;
-    for (int x = 0; x < r.width; ++x) {
-      if (x + radius < r.width) along += run[x + radius] > 0;
-      if (x - radius - 1 >= 0) along -= run[x - radius - 1] > 0;
-      to.at(x, y) = (along > 0) != erode;
-    }
+  const std::size_t width = static_cast<std::size_t>(r.width), height = static_cast<std::size_t>(r.height);
+  std::vector<std::uint8_t> padded;
+  for (std::size_t y = 0; y < height; ++y) {
+    padded.assign(width + window - 1, nothing);
+    std::copy_n(r.cells.begin() + static_cast<std::ptrdiff_t>(y * width), width, padded.begin() + radius);
+    slide(1, width, padded, &to.cells[y * width]);
   }
+  padded.assign((height + window - 1) * width, nothing);
+  std::copy(to.cells.begin(), to.cells.end(), padded.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(radius) * width));
+  slide(width, height, padded, to.cells.data());
   return to;
+}
+
+Raster dilated(const Raster& r, int radius) {
+  return combined(r, radius, 0, [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
+}
+
+/// Fills gaps of up to twice `radius` between full cells.
+Raster closed(const Raster& r, int radius) {
+  return combined(dilated(r, radius), radius, 1, [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a & b); });
+}
+
+/// How many cells are full in any rectangle, by sums from the first corner.
+class Counts {
+ public:
+  explicit Counts(const Raster& r) : width_(r.width), height_(r.height), sums_(static_cast<std::size_t>(r.width + 1) * (r.height + 1), 0) {
+    for (int y = 0; y < r.height; ++y)
+      for (int x = 0, row = 0; x < r.width; ++x) {
+        row += r.cells[static_cast<std::size_t>(y) * r.width + x];
+        sum(x + 1, y + 1) = sum(x + 1, y) + row;
+      }
+  }
+  /// Within `reach` of a cell along both axes.
+  int around(int x, int y, int reach) const {
+    const int x0 = std::max(0, x - reach), y0 = std::max(0, y - reach), x1 = std::min(width_, x + reach + 1), y1 = std::min(height_, y + reach + 1);
+    return sum(x1, y1) - sum(x0, y1) - sum(x1, y0) + sum(x0, y0);
+  }
+
+ private:
+  int& sum(int x, int y) { return sums_[static_cast<std::size_t>(y) * (width_ + 1) + x]; }
+  int sum(int x, int y) const { return sums_[static_cast<std::size_t>(y) * (width_ + 1) + x]; }
+
+  int width_, height_;
+  std::vector<int> sums_;
+};
+
+/// The full cells that have few others within `reach`, for as much of that as is in `region`.
+Raster sparse_cells(const Raster& r, const Counts& counts, const Counts& region, int reach) {
+  const double window = (2.0 * reach + 1) * (2.0 * reach + 1);
+  Raster sparse = r;
+  for (std::size_t c = 0; c < r.cells.size(); ++c) {
+    if (!r.cells[c]) continue;
+    const int x = static_cast<int>(c % r.width), y = static_cast<int>(c / r.width);
+    sparse.cells[c] = window * counts.around(x, y, reach) <= kFewNear * static_cast<double>(region.around(x, y, reach));
+  }
+  return sparse;
+}
+
+bool is_empty(const Raster& r) { return std::find(r.cells.begin(), r.cells.end(), 1) == r.cells.end(); }
+
+/// What lies between full cells where these are sparse: gaps of up to twice the reach within which they have few others.
+Raster filled_where_sparse(const Raster& points) {
+  const Counts counts(points);
+  Raster full = points;
+  for (int reach = 4; reach <= kWidest; reach *= 2) {
+    const Raster region = closed(points, reach), sparse = sparse_cells(points, counts, Counts(region), reach);
+    if (is_empty(sparse)) break;
+    const Raster near = dilated(sparse, reach);
+    for (std::size_t c = 0; c < full.cells.size(); ++c) full.cells[c] |= near.cells[c] & region.cells[c];
+  }
+  return full;
 }
 
 /// Keeps the largest part connected by edges; returns how many cells it has.
@@ -200,12 +263,12 @@ Polygon outline(const std::vector<Vec3>& points, const Plane& plane, const Vec3&
   }
   cell = std::max(cell, (high - low).maxCoeff() / kLargestRaster);
   // Gaps are closed a little wider until nearly all points lie in one part.
-  int margin = 0;
+  const int margin = kWidest + 1;
+  const Raster points_raster = rasterize(flat, low, high, cell, margin), where_sparse = filled_where_sparse(points_raster);
   Raster raster;
-  for (int radius = 2; radius <= 16; radius *= 2) {
-    margin = radius + 1;
-    const Raster points_raster = rasterize(flat, low, high, cell, margin);
-    raster = dilate(dilate(points_raster, radius, false), radius, true);
+  for (int radius = 2; radius <= kWidest; radius *= 2) {
+    raster = closed(points_raster, radius);
+    for (std::size_t c = 0; c < raster.cells.size(); ++c) raster.cells[c] |= where_sparse.cells[c];
     keep_largest(raster);
     std::size_t marked = 0, inside = 0;
     for (std::size_t c = 0; c < raster.cells.size(); ++c) {

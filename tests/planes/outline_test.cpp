@@ -92,6 +92,21 @@ TEST(Outline, SmallGapsCloseAndLargeOnesCut) {
   EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), 2.0, 0.2);  // the largest part
 }
 
+/// A floor that a scanner at one end sees ever thinner: it has no holes, and a hatch in its sparse half is one.
+TEST(Outline, GapsAreAsWideAsPointsAreApart) {
+  for (const bool hatch : {false, true}) {
+    Random random(1);
+    std::vector<Vec3> points;
+    while (points.size() < 24000) {
+      const Vec3 p(8.0 * std::pow(random.uniform(), 3), 4.0 * random.uniform(), 0);  // 40 points/m² at the far end: 8 cells apart
+      if (!hatch || p.x() < 5.0 || p.x() > 6.5 || p.y() < 1.0 || p.y() > 3.0) points.push_back(p);
+    }
+    const Polygon polygon = outline(points, Plane(), Vec3::UnitX(), 0.02);
+    EXPECT_NEAR(area_of(polygon, Vec3::UnitZ()), hatch ? 29.0 : 32.0, 0.9);
+    EXPECT_LE(polygon.size(), hatch ? 4u : 3u);
+  }
+}
+
 TEST(Outline, NoPointsNoOutline) {
   EXPECT_TRUE(outline({}, Plane(), Vec3::UnitX(), kCell).empty());
 }
