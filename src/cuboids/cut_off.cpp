@@ -3,6 +3,8 @@
 #include "cuboids/cut_off.h"
 
 #include <array>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 namespace unseen::cuboids {
@@ -15,13 +17,15 @@ constexpr double kSigmas = 6.0;      // off its plane, of what does not lie on i
 
 enum class Beside { border, hiding, farther };
 
-/// What lies next to the end of a surface in one direction; `flush` points of its plane are stepped over.
-Beside beside(const Scan& scan, const Level& level, int u, int v, int du, int dv) {
+/// What lies next to the end of a surface in one direction; other points of its plane are stepped over. None if the surface goes on behind them.
+std::optional<Beside> beside(const Scan& scan, const Level& level, const std::vector<char>& on, int u, int v, int du, int dv) {
   for (int without = 0; without < kMargin;) {
     u += du;
     v += dv;
     if (u < 0 || v < 0 || u >= scan.width || v >= scan.height()) return Beside::border;
-    const int point = scan.point_of_pixel[static_cast<std::size_t>(v) * scan.width + u];
+    const std::size_t pixel = static_cast<std::size_t>(v) * scan.width + u;
+    if (on[pixel]) return std::nullopt;
+    const int point = scan.point_of_pixel[pixel];
     if (point < 0) {
       ++without;
       continue;
@@ -41,12 +45,8 @@ bool goes_on_beyond_picture(const Scan& scan, const Level& level) {
   for (const int i : points) on[scan.pixel_of_point[i]] = 1;
   std::array<double, 3> ends{};  // by what is beside
   for (const int i : points)
-    for (const auto& [du, dv] : std::array<std::pair<int, int>, 4>{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}}) {
-      const int u = scan.pixel_of_point[i] % scan.width, v = scan.pixel_of_point[i] / scan.width;
-      const bool inside = u + du >= 0 && v + dv >= 0 && u + du < scan.width && v + dv < scan.height();
-      if (inside && on[static_cast<std::size_t>(v + dv) * scan.width + u + du]) continue;
-      ++ends[static_cast<std::size_t>(beside(scan, level, u, v, du, dv))];
-    }
+    for (const auto& [du, dv] : std::array<std::pair<int, int>, 4>{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}})
+      if (const auto what = beside(scan, level, on, scan.pixel_of_point[i] % scan.width, scan.pixel_of_point[i] / scan.width, du, dv)) ++ends[static_cast<std::size_t>(*what)];
   const double all = ends[0] + ends[1] + ends[2];
   return ends[static_cast<std::size_t>(Beside::border)] > kCut * all && ends[static_cast<std::size_t>(Beside::farther)] < kEnding * all;
 }
