@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision/noise.h"
 #include "collision/shot_problem.h"
+#include "collision/spin_starts.h"
 #include "collision/starts.h"
 #include "collision/unknowns.h"
 
@@ -17,6 +19,9 @@ namespace {
 constexpr double kAlike = 3.0;           // ½ χ² by which another solution may be worse and still explains the data alike
 constexpr double kOtherValue = 0.05;     // of restitution, or as a share of the mass ratio: less is no other solution
 
+constexpr double kAnglesMet = 14.0;      // by as many unknowns of the turning, however large their noise: of many ways to turn some meet others by chance
+constexpr double kFewestAngles = 4.0;
+
 /// A solution with its own noise.
 struct Candidate {
   Problem problem;
@@ -24,8 +29,18 @@ struct Candidate {
   double score = 0;  ///< −log likelihood: ½ χ² alone would favour whoever has the larger noise
 };
 
+/// Whether some body may have turned whole times between the orientations of a flight.
+bool leaves_turns_open(const Problem& problem) {
+  for (const int body : {0, 1})
+    for (const bool after : {false, true})
+      if (open_turns(problem, body, after).open) return true;
+  return false;
+}
+
 double score_of(const Problem& problem, const Fit& fit) {
-  const double pixels = 2.0 * static_cast<double>(problem.points.size()), angles = 3.0 * static_cast<double>(problem.orientations.size());
+  const double pixels = 2.0 * static_cast<double>(problem.points.size());
+  double angles = 3.0 * static_cast<double>(problem.orientations.size());
+  if (leaves_turns_open(problem)) angles = std::max(kFewestAngles, angles - kAnglesMet);
   return fit.cost + pixels * log_noise(problem.pixel_sigma, problem.noise_power) + angles * std::log(problem.orientation_sigma);
 }
 
@@ -101,11 +116,14 @@ Solution best_fit(const Problem& problem, double time, int starts, Context& cont
   constexpr double kHopeless = 40.0, kPoor = 40.0, kUnlikely = 30.0;  // above the best: as found, with touching shapes, with their own noise
   constexpr double kFarOff = 300.0;
   constexpr std::size_t kTried = 16;
+  constexpr int kMoreWays = 2;  // times as many starts, and as many tried, where whole turns are open
   constexpr int kNoiseRounds = 3;
-  std::vector<Candidate> candidates = first_candidates(problem, time, starts);
+  const int ways = leaves_turns_open(problem) ? kMoreWays : 1;
+  const std::size_t tried = kTried * static_cast<std::size_t>(ways);
+  std::vector<Candidate> candidates = first_candidates(problem, time, ways * starts);
   if (problem.touches()) {
     advance(candidates, kFarOff, context, [](const Candidate& c) { return try_out(c.problem, c.fit.state); });
-    if (candidates.size() > kTried) candidates.erase(candidates.begin() + kTried, candidates.end());
+    if (candidates.size() > tried) candidates.resize(tried);
   } else {
     advance(candidates, kHopeless, context, [](const Candidate& c) { return approach(c.problem, c.fit.state); });
   }

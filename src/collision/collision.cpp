@@ -55,6 +55,7 @@ void warn_of_unused(const Shot& shot, Context& context) {
   const bool both_free = std::none_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& b) { return b.shape == Shape::fixed; });
   if (shot.floor && both_free) context.warn(shot.name + ": floor: not used, as both bodies move");
   if (shot.floor && shot.bodies[1].normal) context.warn(fmt::format("{}: floor: not used, as {} has a normal of its own", shot.name, shot.bodies[1].name));
+  if (shot.roi && shot.video.empty()) context.warn(shot.name + ": roi: not used, as there are observations instead of a video");
   for (std::size_t o = 0; o < shot.bodies.size(); ++o)
     if (shot.bodies[o].shape == Shape::sphere &&
         std::any_of(shot.orientations.begin(), shot.orientations.end(), [&](const OrientationHint& hint) { return hint.body == static_cast<int>(o); }))

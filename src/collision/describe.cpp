@@ -10,6 +10,7 @@
 #include "collision/frames.h"
 #include "collision/residuals.h"
 #include "collision/restitution.h"
+#include "collision/spin_starts.h"
 #include "collision/symmetry.h"
 #include "collision/unknowns.h"
 #include "unseen/core/level.h"
@@ -81,6 +82,9 @@ std::vector<std::string> observability(const SolvedImpact& impact, const Shot& s
     const double along = sd(kV + 3 * o + 2), across = std::max(sd(kV + 3 * o), sd(kV + 3 * o + 1));
     if (along > 0.2 && along > 5.0 * across) remarks.push_back(fmt::format("{}: its speed along the view ray is known to ±{:.1f} m/s only", name, along));
     if (!problem.solids[o].is_sphere() && !problem.turns(o)) remarks.push_back(fmt::format("{}: how it turns is not known; the impact is taken as one of its centre", name));
+    for (const bool after : {false, true})
+      if (const OpenTurns turns = open_turns(problem, o, after); turns.open && turns.orientations == 2)
+        remarks.push_back(fmt::format("{}: how often it turned between its two orientations {} the impact is told by the impact alone; a third orientation would settle it", name, after ? "after" : "before"));
     const bool found = std::none_of(shot.orientations.begin(), shot.orientations.end(), [&](const auto& given) { return given.body == o; });
     if (!found || !problem.turns(o)) continue;
     if (const auto share = nearly_alike_sides(shot.bodies[o]))

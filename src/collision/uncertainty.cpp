@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "collision/focal_doubt.h"
 #include "collision/normal_doubts.h"
@@ -106,6 +108,35 @@ void widen(Estimate& e, double sd, double low, double high) {
   e.high = std::min(high, e.value + 1.96 * e.sd);
 }
 
+/// Below which value that share of equally wide normal distributions lies; of their weights and centres.
+double mixture_quantile(const std::vector<std::pair<double, double>>& modes, double sd, double share) {
+  constexpr double kFar = 8.0;  // deviations
+  constexpr int kHalvings = 60;
+  double weights = 0.0, low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const auto& [weight, center] : modes) {
+    weights += weight;
+    low = std::min(low, center - kFar * sd);
+    high = std::max(high, center + kFar * sd);
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    double below = 0.0;
+    for (const auto& [weight, center] : modes) below += 0.5 * weight * std::erfc((center - middle) / (sd * std::sqrt(2.0)));
+    (below < share * weights ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// Widens to 95 % of what the solution and others, which are as noisy, are likely to be, each with the likelihood that its χ² has.
+void widen_to_others(Estimate& e, const std::vector<Alternative>& others, double Alternative::*value, double sd, double low, double high) {
+  std::vector<std::pair<double, double>> modes = {{1.0, e.value}};
+  for (const Alternative& other : others) modes.emplace_back(std::exp(-0.5 * other.excess), other.*value);
+  if (others.empty() || !(sd > 0.0)) return;
+  e.low = std::max(low, std::min(e.low, mixture_quantile(modes, sd, 0.025)));
+  e.high = std::min(high, std::max(e.high, mixture_quantile(modes, sd, 0.975)));
+  e.sd = std::max(e.sd, (e.high - e.low) / (2.0 * 1.96));
+}
+
 }  // namespace
 
 Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& context) {
@@ -136,7 +167,7 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   });
   for (std::vector<double>* values : {&c, &m}) std::erase_if(*values, [](double value) { return std::isnan(value); });
   double c_spread = deviation(c, result.restitution.value), m_spread = deviation(m, result.mass_ratio.value);
-  const double c_noise = std::max(c_spread, by_covariance);
+  const double c_noise = std::max(c_spread, by_covariance), m_noise = std::max(m_spread, result.mass_ratio.sd);
   for (const Alternative& other : solution.others) {  // half as likely as the best where χ² is as low
     const double share = std::exp(-0.5 * other.excess);
     c_spread = std::max(c_spread, share * std::abs(other.restitution - result.restitution.value) / 1.96);
@@ -147,8 +178,11 @@ Uncertain uncertainty(Solution& solution, int resamples, int seed, Context& cont
   result.scale = scale_ratios(solution);
   const ScaleError scale_off = error_by_scale(solution, result.scale);
   widen(result.restitution, std::hypot(c_spread, focal.restitution, scale_off.restitution), 0.0, 1.0);
+  widen_to_others(result.restitution, solution.others, &Alternative::restitution, std::hypot(c_noise, focal.restitution, scale_off.restitution), 0.0, 1.0);
   if (by_covariance > 0.0) result.common *= result.restitution.sd / by_covariance;
-  widen(result.mass_ratio, std::hypot(m_spread, focal.mass_ratio, scale_off.mass_ratio), 0.0, std::numeric_limits<double>::infinity());
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  widen(result.mass_ratio, std::hypot(m_spread, focal.mass_ratio, scale_off.mass_ratio), 0.0, kAny);
+  if (!problem.fixed) widen_to_others(result.mass_ratio, solution.others, &Alternative::mass_ratio, std::hypot(m_noise, focal.mass_ratio, scale_off.mass_ratio), 0.0, kAny);
   return result;
 }
 

@@ -2,10 +2,13 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "collision/best_fit.h"
 #include "collision/model_check.h"
 #include "collision/restitution.h"
 #include "collision/rotation.h"
+#include "collision/spin_starts.h"
 #include "collision/uncertainty.h"
 #include "collision/unknowns.h"
 #include "unseen/collision/synth.h"
@@ -139,6 +142,23 @@ TEST(Uncertainty, IntervalsHoldTheTruthOfNoisyTracks) {
   EXPECT_GE(held, runs - 2);
 }
 
+/// Two solutions of which the second is half as likely as the first: both are among what 95 % of chances lead to.
+TEST(Uncertainty, IntervalsReachAnotherSolutionThatIsNotUnlikely) {
+  const SynthShot synth = shot_of("balls", 1);
+  Solution s = solved(synth, problem_of(synth));
+  ASSERT_TRUE(s.fit.usable);
+  const double c = restitution_of(s), m = s.fit.state.mass_ratio, other = c > 0.5 ? c - 0.2 : c + 0.2;
+  s.others = {{"another", other, 1.5 * m, 1.76}};
+  Context context;
+  const Uncertain u = uncertainty(s, 0, 1, context);
+  EXPECT_LE(u.restitution.low, std::min(c, other));
+  EXPECT_GE(u.restitution.high, std::max(c, other));
+  EXPECT_GE(u.mass_ratio.high, 1.5 * m);
+  s.others.front().excess = 20.0;  // no longer
+  const Uncertain sure = uncertainty(s, 0, 1, context);
+  EXPECT_TRUE(other < sure.restitution.low || other > sure.restitution.high);
+}
+
 TEST(Restitution, PoolsByPrecisionAndBelievesDisagreement) {
   const Estimate p = pooled({{0.6, 0.01, 0, 0}, {0.7, 0.1, 0, 0}});
   EXPECT_NEAR(p.value, (0.6 * 100 + 0.7) / 101.0, 1e-12);
@@ -156,6 +176,38 @@ TEST(Rotation, FollowsTheSymmetricTop) {
   const Quat expected = Quat(Eigen::AngleAxisd(h.norm() / inertia.x() * t, h.normalized())) * q0 * Quat(Eigen::AngleAxisd(own * t, Vec3::UnitZ()));
   EXPECT_LT(turned<double>(q0, h, inertia, t).angularDistance(expected), 2e-3);
   EXPECT_LT(turned<double>(turned<double>(q0, h, inertia, t), h, inertia, -t).angularDistance(q0), 1e-3);
+}
+
+/// A box that tumbles, followed in steps of its own: Euler's equations of the body's angular velocity, and the rotation matrix with it.
+Quat tumbled(const Quat& q0, Vec3 omega, const Vec3& inertia, double time) {
+  constexpr int kSteps = 20000;
+  Mat3 r = q0.toRotationMatrix();
+  const double dt = time / kSteps;
+  const auto rate = [&](const Vec3& w) { return Vec3(-w.cross(inertia.cwiseProduct(w)).cwiseQuotient(inertia)); };
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 middle = omega + 0.5 * dt * rate(omega);
+    r = r * Eigen::AngleAxisd(middle.norm() * dt, middle.normalized()).toRotationMatrix();
+    omega += dt * rate(middle);
+  }
+  return Quat(r).normalized();
+}
+
+/// Two orientations of a body that turned once to twice and more between them: what is left of its turns does not tell their axis.
+TEST(SpinStarts, HoldTheMomentumOfABodyThatTumbles) {
+  constexpr double kTime = 0.36;  // s
+  Random random(5);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 size(random.uniform(0.08, 0.3), random.uniform(0.08, 0.3), random.uniform(0.08, 0.3));
+    const Vec3 squares = size.cwiseAbs2(), inertia = (Vec3::Constant(squares.sum()) - squares) / 12.0;
+    const Quat q0 = Quat(Eigen::Vector4d(random.normal(), random.normal(), random.normal(), random.normal())).normalized();
+    const Vec3 omega = random.uniform(15.0, 30.0) * Vec3(random.normal(), random.normal(), random.normal()).normalized();
+    Problem problem;
+    problem.solids[0].mass.inertia = inertia;
+    problem.orientations = {{0, false, 0.0, q0}, {0, false, kTime, tumbled(q0, omega, inertia, kTime)}};
+    const Vec3 h = q0 * inertia.cwiseProduct(omega);
+    const std::vector<SpinGuess> guesses = spin_guesses(problem, 0, false, kTime);
+    EXPECT_TRUE(std::any_of(guesses.begin(), guesses.end(), [&](const SpinGuess& g) { return (g.h - h).norm() < 0.02 * h.norm(); })) << i;
+  }
 }
 
 TEST(Rotation, DerivativeAlongTheMomentumAgreesWithDifferences) {
