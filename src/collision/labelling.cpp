@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
-#include <array>
-#include <optional>
 
 #include "collision/candidates.h"
 #include "collision/chain.h"
@@ -10,7 +8,6 @@
 #include "collision/counting.h"
 #include "collision/flight_cost.h"
 #include "collision/flight_search.h"
-#include "collision/pair_links.h"
 #include "collision/tracks.h"
 #include "collision/two_body.h"
 #include "collision/which_body.h"
@@ -64,35 +61,6 @@ Tracks label_regions(const Shot& shot, const ShotCamera& camera, const Footage& 
   return tracks;
 }
 
-/// Where the last two sightings of a body lead; the last one's place where there is no other.
-Vec2 led_to(const std::vector<Candidate>& seen, double u) {
-  const Candidate& last = seen.back();
-  if (seen.size() < 2) return last.pixel;
-  const Candidate& before = seen[seen.size() - 2];
-  return last.pixel + (last.pixel - before.pixel) * ((u - last.u) / (last.u - before.u));
-}
-
-/// Sightings that nobody labelled, followed from frame to frame and labelled by their sizes; nothing where some are labelled, or a frame has more than two.
-std::optional<Candidates> followed(const Shot& shot, Candidates candidates) {
-  std::array<std::vector<Candidate>, 2> seen;
-  for (auto& frame : candidates) {
-    if (frame.size() > 2 || std::any_of(frame.begin(), frame.end(), [](const Candidate& c) { return c.body >= 0; })) return std::nullopt;
-    if (seen[0].empty() && frame.size() < 2) frame.clear();  // nothing tells yet whose it is
-    if (frame.empty()) continue;
-    const auto off = [&](std::size_t body, const Candidate& c) { return seen[body].empty() ? 0.0 : (led_to(seen[body], c.u) - c.pixel).squaredNorm(); };
-    const double straight = off(0, frame.front()) + (frame.size() == 2 ? off(1, frame.back()) : 0.0);
-    const double crossed = off(1, frame.front()) + (frame.size() == 2 ? off(0, frame.back()) : 0.0);
-    frame.front().body = straight <= crossed ? 0 : 1;
-    frame.back().body = frame.size() == 2 ? 1 - frame.front().body : frame.front().body;
-    for (const Candidate& c : frame) seen[static_cast<std::size_t>(c.body)].push_back(c);
-  }
-  if (seen[0].empty()) return std::nullopt;
-  if (swapped(shot, seen[0], seen[1]))
-    for (auto& frame : candidates)
-      for (Candidate& c : frame) c.body = 1 - c.body;
-  return candidates;
-}
-
 }  // namespace
 
 Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const Footage& footage, Context& context) {
@@ -110,9 +78,6 @@ Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector
   if (body < 0) {
     std::optional<Tracks> tracks = search_pair(shot, camera, candidates, rate, kLeastSightingNoise, context);
     if (!tracks) tracks = label(shot, camera, candidates, rate, kLeastSightingNoise, context);
-    if (tracks->meetings.empty())  // perspective bends parabolas of the picture
-      if (const auto labelled = followed(shot, candidates))
-        if (std::optional<Tracks> found = search_pair(shot, camera, *labelled, rate, kLeastSightingNoise, context)) tracks = std::move(found);
     tracks->told_apart = std::any_of(sightings.begin(), sightings.end(), [](const Sighting& s) { return s.body >= 0; });
     return *tracks;
   }

@@ -129,21 +129,6 @@ std::vector<Sighting> without_labels(std::vector<Sighting> sightings) {
   return sightings;
 }
 
-/// Where noise and perspective keep parabolas of the picture from meeting.
-TEST(FlightSearch, FindsTheImpactOfSightingsThatNobodyLabelled) {
-  for (int seed = 1; seed <= 3; ++seed) {
-    const SynthShot synth = tracks_of("offcentre", 2 * seed + 1, 0.1);
-    Context context;
-    const Tracks tracks = find_tracks(synth.shot, synth.shot.camera, without_labels(synth.shot.observations), synth.truth.fps, context);
-    ASSERT_EQ(tracks.meetings.size(), 1u) << seed;
-    EXPECT_NEAR(tracks.meetings[0].time, synth.truth.impacts[0].time, 1.5 / synth.truth.fps) << seed;
-    EXPECT_FALSE(tracks.told_apart);
-  }
-  const SynthShot apart = tracks_of("flight", 2, 0.05);
-  Context context;
-  EXPECT_TRUE(find_tracks(apart.shot, apart.shot.camera, without_labels(apart.shot.observations), apart.truth.fps, context).meetings.empty());
-}
-
 TEST(FlightSearch, FlightsThatDoNotMeetHaveNoImpact) {
   const SynthShot synth = tracks_of("flight", 1, 0.05);
   Context context;
