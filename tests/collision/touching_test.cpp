@@ -124,11 +124,6 @@ TEST(FlightSearch, FindsTheImpactInNoise) {
   }
 }
 
-std::vector<Sighting> without_labels(std::vector<Sighting> sightings) {
-  for (Sighting& s : sightings) s.body = -1;
-  return sightings;
-}
-
 TEST(FlightSearch, FlightsThatDoNotMeetHaveNoImpact) {
   const SynthShot synth = tracks_of("flight", 1, 0.05);
   Context context;
