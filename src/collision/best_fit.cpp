@@ -20,7 +20,7 @@ constexpr double kAlike = 3.0;           // ½ χ² by which another solution ma
 constexpr double kOtherValue = 0.05;     // of restitution, or as a share of the mass ratio: less is no other solution
 
 constexpr double kAnglesMet = 14.0;      // by as many unknowns of the turning, however large their noise: of many ways to turn some meet others by chance
-constexpr double kFewestAngles = 4.0;
+constexpr double kFewestAngles = 4.0;    // that count all the same
 
 /// A solution with its own noise.
 struct Candidate {

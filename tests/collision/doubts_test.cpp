@@ -73,6 +73,12 @@ TEST(Unused, FloorsAndOrientationsThatTellNothingAreRemarkedOn) {
   EXPECT_TRUE(says(solve(shot), "orientations: those of " + shot.bodies[0].name));
 }
 
+TEST(Unused, ARegionOfThePictureIsOneWithoutVideo) {
+  Shot shot = tracks("balls", 1).shot;
+  shot.roi = {5000, 5000, 100, 100};
+  EXPECT_TRUE(says(solve(shot), "roi: not used"));
+}
+
 TEST(GivenDown, IsComparedWithTheFlights) {
   Shot shot = tracks("balls", 1).shot;
   const Vec3 down = solve(shot).T_world_camera.rotation.transpose() * -Vec3::UnitZ();

@@ -369,22 +369,6 @@ TEST(Reconstruct, ACameraOfAnotherSizeThanTheVideoIsRefused) {  // its focal len
   EXPECT_THROW(complete_camera(shot, 1920, 1080), InputError);
 }
 
-TEST(Reconstruct, ARoiIsSaidToBeUnusedWithObservations) {
-  SynthOptions synth;
-  synth.scene = "flight";
-  synth.video = false;
-  Shot shot = simulate(synth).shot;
-  shot.observations.resize(12);
-  const auto told = [&] {
-    Context context;
-    const std::vector<std::string> warnings = reconstruct(shot, {}, context).summary.warnings;
-    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("roi: not used") != std::string::npos; });
-  };
-  EXPECT_FALSE(told());
-  shot.roi = {5000, 5000, 100, 100};
-  EXPECT_TRUE(told());
-}
-
 TEST(Reconstruct, ADownThatPointsUpIsNoFit) {
   SynthOptions synth;
   synth.scene = "ball-floor";
