@@ -9,22 +9,33 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <unordered_set>
 
 #include "core/shortened.h"
 #include "unseen/core/error.h"
 
 namespace unseen::io {
+namespace {
+
+constexpr std::size_t kLongest = 60;  // characters of what was found that a message holds
+
+}  // namespace
 
 nlohmann::json parse_json(const std::string& text, const std::string& source, const std::string& expected) {
   constexpr int kDeepest = 64;
   using Event = nlohmann::json::parse_event_t;
-  const auto limit_depth = [&](int depth, Event event, nlohmann::json&) {
+  std::vector<std::unordered_set<std::string>> keys;  // of the objects that are open
+  const auto check = [&](int depth, Event event, const nlohmann::json& parsed) {
     if (depth > kDeepest && (event == Event::object_start || event == Event::array_start))
       throw InputError(source, "", fmt::format("more than {} nested levels", kDeepest), expected);
+    if (event == Event::object_start) keys.emplace_back();
+    if (event == Event::object_end) keys.pop_back();
+    if (event == Event::key && !keys.back().insert(parsed.get_ref<const std::string&>()).second)
+      throw InputError(source, shortened(parsed.get_ref<const std::string&>(), kLongest), "twice in one object", "once");
     return true;
   };
   try {
-    return nlohmann::json::parse(text, limit_depth);
+    return nlohmann::json::parse(text, check);
   } catch (const nlohmann::json::exception& e) {
     throw InputError(source, "", "broken JSON (" + std::string(e.what()) + ")", expected);
   }
@@ -138,7 +149,6 @@ std::optional<OptionInput> JsonField::option() const {
 }
 
 void JsonField::fail(const std::string& expected) const {
-  constexpr std::size_t kLongest = 60;
   std::string found;
   if (value_->is_array()) {
     found = fmt::format("an array of {}", value_->size());

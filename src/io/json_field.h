@@ -15,7 +15,7 @@
 
 namespace unseen::io {
 
-/// Parses JSON of at most 64 levels. Throws InputError; `expected` says what the text should have been.
+/// Parses JSON of at most 64 levels, of whose objects no key is there twice. Throws InputError; `expected` says what the text should have been.
 nlohmann::json parse_json(const std::string& text, const std::string& source,
                           const std::string& expected = "a result of unseen");
 

@@ -345,6 +345,8 @@ TEST(TakeRead, BadJointsAreNamed) {
   expect_error(coco, "broken JSON");
   folder.write("joints.json", std::string(100'000, '['));
   expect_error(coco, "nested levels");
+  folder.write("joints.json", std::string("[{\"image_id\": 1, \"image_id\": 2}]"));
+  expect_error(coco, "joints.json: image_id: found twice in one object, expected once");
   folder.write("joints.json", Json::array());
   expect_error(coco, "no person in any frame");
   const auto openpose = folder.write("open.json", take("openpose", "frames"));
