@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/linear.h"
+#include "unseen/core/convex.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
@@ -114,6 +115,31 @@ Plane fit_support(const Scan& scan, std::span<const int> points) {
     if (round > 0) scale = 1.4826 * median(std::move(residuals));
   }
   return plane;
+}
+
+void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v) {
+  constexpr int kColumns = 512;
+  std::vector<Vec2> flat;
+  for (const int f : level.faces)
+    for (const int i : scan.faces.faces[f].points) flat.emplace_back(u.dot(scan.points[i]), v.dot(scan.points[i]));
+  // Only the lowest and highest point of each thin column can be corners.
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec2& p : flat) low = std::min(low, p.x()), high = std::max(high, p.x());
+  std::vector<Vec2> lowest(kColumns, Vec2(0, 1e30)), highest(kColumns, Vec2(0, -1e30)), corners;
+  for (const Vec2& p : flat) {
+    const int c = std::min(static_cast<int>((p.x() - low) / std::max(high - low, 1e-9) * kColumns), kColumns - 1);
+    if (p.y() < lowest[c].y()) lowest[c] = p;
+    if (p.y() > highest[c].y()) highest[c] = p;
+  }
+  for (int c = 0; c < kColumns; ++c)
+    if (lowest[c].y() < 1e30) corners.insert(corners.end(), {lowest[c], highest[c]});
+  level.outline = convex_hull(std::move(corners));
+}
+
+std::vector<Vec3> lifted(const Level& level, const Vec3& u, const Vec3& v) {
+  std::vector<Vec3> outline;
+  for (const Vec2& p : level.outline) outline.push_back(level.plane.project(p.x() * u + p.y() * v));
+  return outline;
 }
 
 }  // namespace unseen::cuboids

@@ -43,6 +43,12 @@ double tilt_error(const Scan& scan, std::span<const int> points);
 /// Faces of one plane, largest first; each face joins the first plane that it lies on.
 std::vector<Level> coplanar(const Scan& scan, std::vector<int> faces);
 
+/// The convex outline of a level's points, along two directions.
+void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v);
+
+/// That outline as points of the level's plane.
+std::vector<Vec3> lifted(const Level& level, const Vec3& u, const Vec3& v);
+
 /// A ground of which no more than a strip is seen, as behind a table, tells little of up: then the level does whose normal is surest.
 void level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level& ground);
 

@@ -263,6 +263,20 @@ TEST(Walls, AreNotCartonsOfWhichThePictureShowsTheFoot) {
       }
 }
 
+TEST(Walls, AreNotTallCartonsBesideWhichTheFloorGoesOn) {
+  for (const double x : {-0.2, 0.1, 0.3})
+    for (const double yaw : {0.0, 10.0, 30.0})
+      for (const double width : {0.5, 0.8}) {
+        Scene scene;
+        scene.height = 1.1;
+        scene.pitch = radians(50.0);
+        scene.boxes = {upright(x, 1.3, 0, {width, 0.5, 1.3}, yaw), upright(-0.5, 0.6, 0, {0.2, 0.2, 0.2}, 15)};
+        const Perceived p = perceive(render(scene));
+        EXPECT_EQ(p.seen.supports.size(), 1u) << x << " " << yaw << " " << width;
+        EXPECT_EQ(p.cuboids.size(), 2u) << x << " " << yaw << " " << width;
+      }
+}
+
 /// A side table far away, of less than a tenth of the floor's pixels: what masks name stands on it, and on the floor beside it.
 TEST(Desks, ThatAreSmallInThePictureCarryWhatMasksName) {
   Scene scene;
