@@ -16,6 +16,17 @@ TEST(Outline, TellsTheTurnOfABoxWhoseSidesAreHidden) {  // by a board before it,
   }
 }
 
+TEST(Outline, TellsTheTurnOfAThinBoxThatThePictureCutsOff) {
+  for (const double turn : {25.0, 50.0, -30.0})
+    for (const double y : {0.31, 0.36}) {
+      Scene scene;
+      scene.boxes = {upright(0.0, y, 0, {0.16, 0.24, 0.03}, turn), upright(0.1, 0.7, 0, {0.2, 0.15, 0.15}, 10)};
+      const Perceived p = perceive(render(scene));
+      ASSERT_EQ(p.fitted.size(), 2u) << turn << " " << y;
+      EXPECT_LT(turn_between(nearest(p.fitted, scene.boxes[0].center).box, scene.boxes[0]), 3.0) << turn << " " << y;
+    }
+}
+
 TEST(Outline, OfWhatLeansSidewaysIsNoWider) {  // a carton that is skewed; a level box around all of it is 11 mm wider
   for (const double lean : {-3.0, 3.0}) {
     Scene scene;
