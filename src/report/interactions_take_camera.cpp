@@ -81,6 +81,7 @@ void check_pixels(const std::vector<Detection>& detections, const std::string& s
 
 void remark_on_places(Take& take) {
   constexpr double kMargin = 0.05;  // of the size: a detector's joints may lie a little outside
+  constexpr std::size_t kFew = 10;  // one detection in so many may be an error
   const double across = kMargin * take.camera.width, along = kMargin * take.camera.height;
   std::size_t outside = 0;
   for (const Detection& d : take.detections) {
@@ -91,7 +92,7 @@ void remark_on_places(Take& take) {
     }
     outside += out;
   }
-  if (2 * outside > take.detections.size())
+  if (kFew * outside > take.detections.size())
     take.remarks.push_back(fmt::format("joints lie outside the picture in {} of {} detections: {} x {} looks like the wrong size", outside, take.detections.size(),
                                        take.camera.width, take.camera.height));
 }

@@ -76,7 +76,7 @@ PictureSize picture_size(const GivenCamera& given, const JointFile* joints, std:
 Camera resolved_camera(const GivenCamera& given, const PictureSize& size);
 /// Throws InputError if all joints are shares of the picture, not pixels.
 void check_pixels(const std::vector<interactions::Detection>& detections, const std::string& source);
-/// Remarks on it if joints lie outside the picture in most detections.
+/// Remarks on it if joints lie outside the picture in more than a tenth of the detections.
 void remark_on_places(interactions::Take& take);
 
 /// Sorts by frame, makes a tracker's names 0, 1, …, joins detections that are the same, and remarks on what is odd. `source` names the

@@ -252,6 +252,16 @@ TEST(TakeRead, JointsOutsideThePictureAreRemarkedOn) {
   EXPECT_TRUE(remarked(read_take(folder.write("take.json", json)), "wrong size"));
 }
 
+TEST(TakeRead, JointsOutsideThePictureInOneOfTenDetectionsAreErrors) {
+  const Folder folder;
+  for (const int outside : {1, 2}) {
+    Json people = Json::array();
+    for (int k = 0; k < 10; ++k) people.push_back(coco_person(k, k < outside ? 1600.0 : 0.0));
+    folder.write("joints.json", people);
+    EXPECT_EQ(remarked(read_take(folder.write("take.json", take("coco", "joints.json"))), "looks like the wrong size"), outside > 1) << outside;
+  }
+}
+
 TEST(TakeRead, HintsAreRead) {
   const Folder folder;
   folder.write("joints.json", Json{coco_person(1)});
