@@ -28,7 +28,7 @@ constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the g
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
 constexpr std::size_t kMostRectanglePoints = 1500;
 constexpr int kTurns = 6;                   // in a quarter, at which straight edges are sought
-constexpr double kClearer = 1.5;
+constexpr double kClearer = 1.5;            // times the information
 
 Mat3 turned(double yaw) {
   Mat3 axes = Mat3::Identity();
@@ -170,10 +170,10 @@ Mat3 level_axes(const Observation& seen, const DepthView& view, std::span<const 
     const double rectangle = rectangle_turn(flat);
     const Vec2 other = turn_of_outline(seen, view, faces, rectangle);
     if (told.isZero() || (turn + other).norm() > (turn + told).norm()) yaw = rectangle, told = other;
-    for (int k = 0; k < kTurns; ++k) {  // the picture's border, or what hides it, may cut it along another line
-      const Vec2 edges = turn_of_outline(seen, view, faces, 0.5 * kPi * k / kTurns);
-      if ((turn + edges).norm() > kClearer * (turn + told).norm()) told = edges;
-    }
+    Vec2 clearest = told;  // the rectangle follows the picture's border where that cuts the top off
+    for (int k = 0; k < kTurns; ++k)
+      if (const Vec2 edges = turn_of_outline(seen, view, faces, 0.5 * kPi * k / kTurns); (turn + edges).norm() > (turn + clearest).norm()) clearest = edges;
+    if ((turn + clearest).norm() > kClearer * (turn + told).norm()) told = clearest;
   }
   if (!told.isZero()) yaw = angle(turn + told);
   return leant(seen, points, faces, turned(std::remainder(yaw, 0.5 * kPi)));

@@ -9,7 +9,6 @@
 
 #include "cuboids/box_axes.h"
 #include "cuboids/box_fit.h"
-#include "cuboids/foot.h"
 #include "cuboids/reach.h"
 #include "cuboids/slabs.h"
 #include "cuboids/tints.h"
@@ -170,7 +169,7 @@ std::vector<Cuboid> fit_cuboids(const RgbdFrame& frame, const Observation& seen,
   for (std::size_t k = 0; k < parts.size(); ++k) {
     context.check();
     const ObjectPart& part = parts[k];
-    boxes.push_back(bound_above_foot(seen, view, part.points, faces_of[k], box_axes(seen, view, part.points, faces_of[k], part.free_orientation), voxel_of(part)));
+    boxes.push_back(bound(seen, view, part.points, faces_of[k], box_axes(seen, view, part.points, faces_of[k], part.free_orientation), voxel_of(part)));
   }
   const std::vector<int> top = tops_of_posts(seen, parts, boxes);
   std::vector<char> full;

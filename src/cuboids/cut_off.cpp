@@ -13,7 +13,6 @@ namespace {
 constexpr int kMargin = 16;          // pixels without depth, of a border of the picture or of an edge
 constexpr double kCut = 0.3;         // of where the surface ends, that is the border
 constexpr double kEnding = 0.05;     // … that has something farther beside it, or nothing
-constexpr double kSigmas = 6.0;      // off its plane, of what does not lie on it
 
 enum class Beside { border, hiding, farther };
 
@@ -30,7 +29,7 @@ std::optional<Beside> beside(const Scan& scan, const Level& level, const std::ve
       ++without;
       continue;
     }
-    const double distance = level.plane.signed_distance(scan.points[point]), noise = kSigmas * scan.graph.sigma[point];
+    const double distance = level.plane.signed_distance(scan.points[point]), noise = kOffPlane * scan.graph.sigma[point];
     if (std::abs(distance) > noise) return distance > 0.0 ? Beside::hiding : Beside::farther;
   }
   return Beside::farther;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "cuboids/cut_off.h"
 #include "unseen/core/convex.h"
@@ -17,9 +18,7 @@ namespace {
 constexpr double kWallShare = 0.25;        // of the square of the scene's radius
 constexpr double kMostBehindWall = 0.03;   // of the points
 constexpr double kSureTilt = 0.05;         // rad, of a wall of which no more than a strip is seen
-constexpr double kOffPlane = 6.0;          // σ, of what does not lie on it
-constexpr double kClearlyBehind = 0.05;    // m
-constexpr double kFoot = 0.05;             // m above or below the ground
+constexpr double kClearly = 0.05;          // m off a plane, besides noise
 constexpr double kOver = 0.25, kBeside = 1.0;  // of a wall's height and width: how far from it its background tells where it ends
 
 double scene_radius(const Scan& scan) {
@@ -46,12 +45,11 @@ bool bounds_the_scene(const Scan& scan, const Level& level, const Vec3& u, const
 
 /// Beyond which edges of an upright surface something that lies behind it was seen, along most of the edge.
 struct Ends {
-  bool above = false, below = false, left = false, right = false;
+  bool above = false, left = false, right = false;
 };
 
-/// `place` tells where a point that lies behind the plane counts, by its index and its distance from the plane.
-template <class Place>
-Ends ends_of(const Scan& scan, const Level& level, const Vec3& across, const Vec3& along, const Place& place) {
+/// What lies behind counts where it is, or, `as_seen`, where its view ray passes the surface's plane.
+Ends ends_of(const Scan& scan, const Level& level, const Vec3& across, const Vec3& along, bool as_seen) {
   constexpr int kEdgeParts = 20;
   Vec2 low = level.outline.front(), high = low;
   for (const Vec2& p : level.outline) {
@@ -59,41 +57,41 @@ Ends ends_of(const Scan& scan, const Level& level, const Vec3& across, const Vec
     high = high.cwiseMax(p);
   }
   const Vec2 size = high - low;
-  std::array<std::array<char, kEdgeParts>, 4> behind{};  // parts of the edges: above, below, left, right
+  const double before = level.plane.signed_distance(Vec3::Zero());
+  std::array<std::array<char, kEdgeParts>, 3> behind{};  // parts of the edges: above, left, right
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const double noise = kOffPlane * scan.graph.sigma[i], distance = level.plane.signed_distance(scan.points[i]);
-    if (distance >= -std::max(noise, kClearlyBehind)) continue;
-    const Vec3 at = place(i, distance);
+    const double noise = kOffPlane * scan.graph.sigma[i], distance = level.plane.signed_distance(scan.points[i]), slack = as_seen ? 0.0 : noise;
+    if (distance >= -std::max(noise, kClearly)) continue;
+    const Vec3 at = scan.points[i] * (as_seen ? before / (before - distance) : 1.0);
     const Vec2 p(across.dot(at), along.dot(at)), share = (p - low).cwiseQuotient(size);
     const auto within = [&](int k) { return share[k] > 0.0 && share[k] < 1.0; };
     const auto mark = [&](int edge, int k) { behind[edge][static_cast<std::size_t>(share[k] * kEdgeParts)] = 1; };
-    if (within(0) && p.y() >= high.y() - noise && share.y() <= 1.0 + kOver) mark(0, 0);
-    if (within(0) && p.y() <= low.y() + noise && share.y() >= -kOver) mark(1, 0);
-    if (within(1) && p.x() <= low.x() + noise && share.x() >= -kBeside) mark(2, 1);
-    if (within(1) && p.x() >= high.x() - noise && share.x() <= 1.0 + kBeside) mark(3, 1);
+    if (within(0) && p.y() >= high.y() - slack && share.y() <= 1.0 + kOver) mark(0, 0);
+    if (within(1) && p.x() <= low.x() + slack && share.x() >= -kBeside) mark(1, 1);
+    if (within(1) && p.x() >= high.x() - slack && share.x() <= 1.0 + kBeside) mark(2, 1);
   }
   const auto ends = [&](int edge) { return 2 * std::count(behind[edge].begin(), behind[edge].end(), 1) > kEdgeParts; };
-  return {ends(0), ends(1), ends(2), ends(3)};
+  return {ends(0), ends(1), ends(2)};
 }
 
 /// Whether an upright surface is the front of a cupboard or of a box, not a wall: what lies behind it is as high as its upper edge, or beyond both
-/// upright ones; or the picture cuts it off above, and shows what lies behind under its lower edge, or past both upright ones while it stands on the ground.
+/// upright ones; or it stands on the ground and the picture shows what lies behind past both upright edges, and over the upper one nothing that does.
 bool ends_before_its_background(const Scan& scan, const Level& level, const Plane& ground, const Vec3& across, const Vec3& along) {
-  const Ends as_placed = ends_of(scan, level, across, along, [&](std::size_t i, double) { return scan.points[i]; });
-  if (as_placed.above || (as_placed.left && as_placed.right)) return true;
+  const Ends placed = ends_of(scan, level, across, along, false);
+  if (placed.above || (placed.left && placed.right)) return true;
   if (!scan.is_image) return false;
-  const double before = level.plane.signed_distance(Vec3::Zero());
-  const Ends as_seen = ends_of(scan, level, across, along, [&](std::size_t i, double distance) -> Vec3 { return scan.points[i] * (before / (before - distance)); });
+  const Ends seen = ends_of(scan, level, across, along, true);
   double height = std::numeric_limits<double>::infinity();  // of its lower edge
   for (const Vec3& p : lifted(level, across, along)) height = std::min(height, ground.signed_distance(p));
-  return !as_seen.above && (as_seen.below || (as_seen.left && as_seen.right && std::abs(height) < kFoot));
+  return !seen.above && seen.left && seen.right && std::abs(height) < kClearly;
 }
 
 /// Whether the picture shows but a strip of a wall, enough to tell how it stands, and not a piece of one that was found.
 bool is_strip_of_wall(const Scan& scan, const Level& level, const std::vector<Enclosing>& found) {
   const std::vector<int> points = points_of(scan, level.faces);
   const auto is_of = [&](const Enclosing& wall) {
-    const auto on = std::count_if(points.begin(), points.end(), [&](int i) { return std::abs(wall.level.plane.signed_distance(scan.points[i])) < kOffPlane * scan.graph.sigma[i]; });
+    const auto is_on = [&](int i) { return std::abs(wall.level.plane.signed_distance(scan.points[i])) < kOffPlane * scan.graph.sigma[i]; };
+    const auto on = std::count_if(points.begin(), points.end(), is_on);
     return 2 * static_cast<std::size_t>(on) > points.size();
   };
   return goes_on_beyond_picture(scan, level) && tilt_error(scan, points) < kSureTilt && std::none_of(found.begin(), found.end(), is_of);
@@ -111,7 +109,8 @@ void extend_down(Level& wall, const Plane& ground, const Vec3& across, const Vec
 
 }  // namespace
 
-std::vector<Enclosing> find_enclosure(const Scan& scan, const Vec3& up, const std::vector<int>& upright, const std::vector<int>& downward, const Plane& ground) {
+std::vector<Enclosing> find_enclosure(const Scan& scan, const std::vector<int>& upright, const std::vector<int>& downward, const Plane& ground) {
+  const Vec3& up = ground.normal;
   std::vector<Enclosing> found;
   const double smallest = kWallShare * std::pow(scene_radius(scan), 2);
   for (Level& wall : coplanar(scan, upright)) {

@@ -16,7 +16,7 @@ struct Enclosing {
   std::vector<Vec3> outline;  ///< a wall's goes down to the ground
 };
 
-/// What bounds the scene among its upright faces and those that face down.
-std::vector<Enclosing> find_enclosure(const Scan& scan, const Vec3& up, const std::vector<int>& upright, const std::vector<int>& downward, const Plane& ground);
+/// What bounds the scene among its upright faces and those that face down, given by their indices.
+std::vector<Enclosing> find_enclosure(const Scan& scan, const std::vector<int>& upright, const std::vector<int>& downward, const Plane& ground);
 
 }  // namespace unseen::cuboids

@@ -16,7 +16,7 @@ constexpr double kSmallestGroundShare = 0.2;  // of the largest horizontal area,
 constexpr double kCarryShare = 1.0 / 3.0;     // of what the surface that carries most carries
 constexpr double kDeskShare = 0.1;            // … of a desk that no mask names
 constexpr double kCarryHeight = 0.5;          // m
-constexpr double kDeskArea = 0.4;              // m²; what is flat and as large may carry things itself
+constexpr double kDeskArea = 0.4;             // m²; what is flat and as large may carry things itself
 constexpr double kBelow = 0.1, kBelowShare = 0.05;  // m below the ground, share of the points
 
 /// Points that stand on each level: it is the highest below them, and they are on no level themselves. They are counted as the
@@ -34,7 +34,7 @@ void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, c
     double least = kCarryHeight;
     for (Level& level : levels) {
       const double height = level.plane.signed_distance(scan.points[i]);
-      if (height > 6.0 * scan.graph.sigma[i] && height < least && inside_convex(level.outline, place, 0.0)) {
+      if (height > kOffPlane * scan.graph.sigma[i] && height < least && inside_convex(level.outline, place, 0.0)) {
         least = height;
         carrier = &level;
       }
@@ -109,7 +109,8 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
     if (unnamed && &level > &*ground && level.carried >= least && level.plane.normal.dot(found.up) > kHorizontal)
       add_support(found, scan, level, SupportKind::desk, lifted(level, u, v));
 
-  for (Enclosing& side : find_enclosure(scan, found.up, upright, downward, ground->plane)) add_support(found, scan, side.level, side.kind, std::move(side.outline));
+  for (Enclosing& side : find_enclosure(scan, upright, downward, ground->plane))
+    add_support(found, scan, side.level, side.kind, std::move(side.outline));
   return found;
 }
 

@@ -24,14 +24,25 @@ constexpr std::size_t kLongest = 60;  // characters of what was found that a mes
 nlohmann::json parse_json(const std::string& text, const std::string& source, const std::string& expected) {
   constexpr int kDeepest = 64;
   using Event = nlohmann::json::parse_event_t;
-  std::vector<std::unordered_set<std::string>> keys;  // of the objects that are open
+  struct Open {
+    std::unordered_set<std::string> keys;
+    std::string last;
+  };
+  std::vector<Open> objects;  // from the outermost one
+  const auto path = [&] {
+    std::vector<std::string> names;
+    for (const Open& object : objects) names.push_back(shortened(object.last, kLongest));
+    return fmt::format("{}", fmt::join(names, "."));
+  };
   const auto check = [&](int depth, Event event, const nlohmann::json& parsed) {
     if (depth > kDeepest && (event == Event::object_start || event == Event::array_start))
       throw InputError(source, "", fmt::format("more than {} nested levels", kDeepest), expected);
-    if (event == Event::object_start) keys.emplace_back();
-    if (event == Event::object_end) keys.pop_back();
-    if (event == Event::key && !keys.back().insert(parsed.get_ref<const std::string&>()).second)
-      throw InputError(source, shortened(parsed.get_ref<const std::string&>(), kLongest), "twice in one object", "once");
+    if (event == Event::object_start) objects.emplace_back();
+    if (event == Event::object_end) objects.pop_back();
+    if (event == Event::key) {
+      objects.back().last = parsed.get_ref<const std::string&>();
+      if (!objects.back().keys.insert(objects.back().last).second) throw InputError(source, path(), "twice in one object", "once");
+    }
     return true;
   };
   try {

@@ -81,7 +81,7 @@ void check_pixels(const std::vector<Detection>& detections, const std::string& s
 
 void remark_on_places(Take& take) {
   constexpr double kMargin = 0.05;  // of the size: a detector's joints may lie a little outside
-  constexpr std::size_t kFew = 10;  // one detection in so many may be an error
+  constexpr double kErrors = 0.1;   // of the detections
   const double across = kMargin * take.camera.width, along = kMargin * take.camera.height;
   std::size_t outside = 0;
   for (const Detection& d : take.detections) {
@@ -92,9 +92,9 @@ void remark_on_places(Take& take) {
     }
     outside += out;
   }
-  if (kFew * outside > take.detections.size())
-    take.remarks.push_back(fmt::format("joints lie outside the picture in {} of {} detections: {} x {} looks like the wrong size", outside, take.detections.size(),
-                                       take.camera.width, take.camera.height));
+  if (static_cast<double>(outside) > kErrors * static_cast<double>(take.detections.size()))
+    take.remarks.push_back(fmt::format("joints lie outside the picture in {} of {} detections: {} x {} may be the wrong size", outside,
+                                       take.detections.size(), take.camera.width, take.camera.height));
 }
 
 }  // namespace unseen::report

@@ -365,23 +365,5 @@ TEST(Objects, AShortLineEachIsEnough) {
   EXPECT_EQ(warnings[0], "strokes of \"ground\" touch no object");
 }
 
-/// Where the sensor's noise is as wide as many pixels, some of the lower box's top is taken for the upper box.
-TEST(Perception, OfACubeOnABoxFarAwayIsNoWiderThanTheCube) {
-  for (const double yaw : {42.0, 46.0, 50.0, 54.0}) {
-    Scene scene;
-    scene.height = 1.7;
-    scene.pitch = radians(25.0);
-    scene.noise = 0.0;
-    scene.boxes = {upright(0.0, 2.9, 0, {0.5, 0.45, 0.4}, 10), upright(0.03, 2.88, 0.4, {0.25, 0.25, 0.25}, yaw)};
-    RgbdFrame frame = render(scene);
-    frame.color.clear();
-    Options options;
-    options.noise = 0.0015;
-    const Perceived p = perceive(frame, options);
-    ASSERT_EQ(p.fitted.size(), 2u) << yaw;
-    EXPECT_LT(2.0 * nearest(p.fitted, scene.boxes[1].center).box.half_size.maxCoeff(), 0.3) << yaw;
-  }
-}
-
 }  // namespace
 }  // namespace unseen::cuboids::test
