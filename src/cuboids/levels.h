@@ -10,8 +10,9 @@
 
 namespace unseen::cuboids {
 
+inline constexpr double kOffPlane = 6.0;  ///< σ, of what does not lie on a plane
+
 /// Cosines that tell level from leaning and upright from leaning, both by 10°.
-inline constexpr double kOffPlane = 6.0;  // σ, of what does not lie on a plane
 inline const double kHorizontal = std::cos(radians(10.0)), kVertical = std::sin(radians(10.0));
 
 /// Points of a frame as the supports see them: camera coordinates, viewpoint at the origin.
