@@ -27,8 +27,8 @@ constexpr double kEnoughExplained = 0.6, kMuchMore = 0.2;  // shares of the poin
 constexpr double kShortestForYaw = 0.03;    // m, of an upright face along the ground
 constexpr double kEnoughInformation = 1.0 / (0.03 * 0.03);
 constexpr std::size_t kMostRectanglePoints = 1500;
-constexpr int kTurns = 6;                   // in a quarter, at which straight edges are sought
-constexpr double kClearer = 1.5;            // times the information
+constexpr int kTurns = 6;                   // in a quarter, near which straight edges are sought …
+constexpr double kClearer = 1.5;            // … that must tell so many times more than those near the other turns
 
 Mat3 turned(double yaw) {
   Mat3 axes = Mat3::Identity();
