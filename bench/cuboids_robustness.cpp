@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cuboids/interface.h"
+#include "cuboids/statics/interface.h"
 #include "cuboids/synth_frame.h"
 #include "unseen/core/random.h"
 #include "unseen/cuboids/cuboids.h"

@@ -15,3 +15,11 @@ function(unseen_library name)
   target_link_libraries(unseen_${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   set_property(GLOBAL APPEND PROPERTY unseen_libraries unseen_${name})
 endfunction()
+
+# unseen_sources(FOLDER names…)
+# A folder's files without their endings, as a list of that name.
+function(unseen_sources folder)
+  list(TRANSFORM ARGN PREPEND ${folder}/)
+  list(TRANSFORM ARGN APPEND .cpp)
+  set(${folder} ${ARGN} PARENT_SCOPE)
+endfunction()

@@ -44,7 +44,10 @@ std::string unexpected(const CLI::App& app) {
   const auto is_flag = [](const std::string& word) { return word.starts_with("-"); };
   const auto flag = std::find_if(words.begin(), words.end(), is_flag);
   const bool names_command = !command.get_subcommands({}).empty();
-  if (!names_command && flag == words.end()) return words.front() + " is one argument too many";
+  if (!names_command && flag == words.end()) {
+    const bool yes_or_no = words.front() == "true" || words.front() == "false";
+    return words.front() + " is one argument too many" + (yes_or_no ? "; it belongs to an option if = is between" : "");
+  }
   std::string word = names_command ? words.front() : *flag;
   if (is_flag(word)) word = word.substr(0, word.find('='));
   std::vector<std::string> known;

@@ -9,14 +9,14 @@
 #include <limits>
 #include <set>
 
-#include "collision/common_error.h"
 #include "collision/describe.h"
-#include "collision/drag.h"
+#include "collision/doubts/common_error.h"
 #include "collision/remarks.h"
 #include "collision/shot_problem.h"
+#include "collision/solve/drag.h"
+#include "collision/solve/terms.h"
 #include "collision/solve_impacts.h"
 #include "collision/solve_turning.h"
-#include "collision/terms.h"
 #include "unseen/core/error.h"
 #include "unseen/core/quantile.h"
 

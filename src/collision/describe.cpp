@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/doubts/restitution.h"
 #include "collision/frames.h"
-#include "collision/residuals.h"
-#include "collision/restitution.h"
-#include "collision/spin_starts.h"
-#include "collision/symmetry.h"
-#include "collision/unknowns.h"
+#include "collision/orientations/symmetry.h"
+#include "collision/solve/residuals.h"
+#include "collision/solve/spin_starts.h"
+#include "collision/solve/unknowns.h"
 #include "unseen/core/level.h"
 
 namespace unseen::collision {

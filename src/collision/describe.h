@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "collision/model_check.h"
-#include "collision/tracks.h"
-#include "collision/uncertainty.h"
+#include "collision/doubts/model_check.h"
+#include "collision/doubts/uncertainty.h"
+#include "collision/tracks/tracks.h"
 
 namespace unseen::collision {
 

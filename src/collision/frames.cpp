@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/unknowns.h"
+#include "collision/solve/unknowns.h"
 
 namespace unseen::collision {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision/describe.h"
-#include "collision/frame_clock.h"
+#include "collision/tracks/frame_clock.h"
 
 namespace unseen::collision {
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/best_fit.h"
-#include "collision/solve.h"
+#include "collision/solve/best_fit.h"
+#include "collision/solve/solve.h"
 
 namespace unseen::collision {
 namespace {

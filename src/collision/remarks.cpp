@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/alternative.h"
-#include "collision/drag.h"
-#include "collision/scale_doubt.h"
+#include "collision/doubts/alternative.h"
+#include "collision/doubts/scale_doubt.h"
+#include "collision/doubts/vertical.h"
 #include "collision/shot_problem.h"
-#include "collision/vertical.h"
+#include "collision/solve/drag.h"
 #include "core/linear.h"
 #include "unseen/core/quantile.h"
 

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "collision/at_rest.h"
-#include "collision/size_trend.h"
+#include "collision/doubts/size_trend.h"
+#include "collision/tracks/at_rest.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "collision/problem.h"
-#include "collision/tracks.h"
+#include "collision/solve/problem.h"
+#include "collision/tracks/tracks.h"
 #include "unseen/collision/options.h"
 
 namespace unseen::collision {

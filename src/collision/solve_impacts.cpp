@@ -6,25 +6,25 @@
 #include <cmath>
 #include <set>
 
-#include "collision/drag.h"
+#include "collision/doubts/restitution.h"
+#include "collision/doubts/vertical.h"
 #include "collision/one_surface.h"
-#include "collision/restitution.h"
 #include "collision/shot_problem.h"
+#include "collision/solve/drag.h"
+#include "collision/solve/unknowns.h"
 #include "collision/split.h"
-#include "collision/unknowns.h"
-#include "collision/vertical.h"
 
 namespace unseen::collision {
 namespace {
 
-constexpr double kFloor = 0.35;     // rad: an impulse that is this near to the vertical comes from a floor, and
+constexpr double kFromFloor = 0.35; // rad: an impulse that is this near to the vertical comes from a floor, and
 constexpr double kWall = 0.35;      // rad: one that is this near to level from a wall
 
 /// Floors are level, and walls plumb, as far as the shot does not say where down is.
 void add_floor_or_wall(Problem& problem, const State& state) {
   if (!problem.fixed || problem.gravity == 0.0) return;
   const Vec3 up = -state.down;
-  if (!problem.fixed_normal) problem.level = line_angle(up, state.impulse) <= kFloor && state.impulse.dot(up) > 0.0;
+  if (!problem.fixed_normal) problem.level = line_angle(up, state.impulse) <= kFromFloor && state.impulse.dot(up) > 0.0;
   problem.plumb = problem.down_sigma >= kDownSigma && std::abs(line_angle(up, problem.fixed_normal.value_or(state.impulse)) - 0.5 * kPi) <= kWall;
 }
 

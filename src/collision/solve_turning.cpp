@@ -8,9 +8,9 @@
 #include <limits>
 #include <optional>
 
-#include "collision/centering.h"
-#include "collision/rotation.h"
-#include "collision/unknowns.h"
+#include "collision/orientations/centering.h"
+#include "collision/solve/rotation.h"
+#include "collision/solve/unknowns.h"
 
 namespace unseen::collision {
 namespace {

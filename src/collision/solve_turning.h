@@ -3,7 +3,7 @@
 #pragma once
 
 #include "collision/describe.h"
-#include "collision/orientations.h"
+#include "collision/orientations/orientations.h"
 #include "unseen/collision/options.h"
 #include "unseen/core/context.h"
 

@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include "collision/best_fit.h"
-#include "collision/tracks.h"
+#include "collision/solve/best_fit.h"
+#include "collision/tracks/tracks.h"
 
 namespace unseen::collision {
 

@@ -2,10 +2,10 @@
 // Copyright (c) 2026 the unseen authors
 #include "unseen/cuboids/cuboids.h"
 
-#include "cuboids/complete.h"
-#include "cuboids/cuts.h"
-#include "cuboids/depth_noise.h"
-#include "cuboids/observation.h"
+#include "cuboids/objects/cuts.h"
+#include "cuboids/search/complete.h"
+#include "cuboids/surfaces/depth_noise.h"
+#include "cuboids/surfaces/observation.h"
 
 namespace unseen::cuboids {
 namespace {

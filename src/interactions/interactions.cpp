@@ -8,11 +8,11 @@
 #include <cmath>
 #include <set>
 
-#include "interactions/ground_fit.h"
-#include "interactions/masks.h"
-#include "interactions/merge_takes.h"
+#include "interactions/ground/ground_fit.h"
+#include "interactions/layout/masks.h"
+#include "interactions/layout/settle_objects.h"
+#include "interactions/people/merge_takes.h"
 #include "interactions/scene.h"
-#include "interactions/settle_objects.h"
 #include "unseen/core/error.h"
 
 namespace unseen::interactions {

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interactions/evidence.h"
-#include "interactions/motion.h"
-#include "interactions/use.h"
+#include "interactions/layout/use.h"
+#include "interactions/matching/evidence.h"
+#include "interactions/people/motion.h"
 
 namespace unseen::interactions {
 namespace {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include "interactions/gather_objects.h"
-#include "interactions/windows.h"
+#include "interactions/layout/gather_objects.h"
+#include "interactions/matching/windows.h"
 #include "unseen/interactions/options.h"
 
 namespace unseen::interactions {

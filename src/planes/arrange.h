@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include "planes/select.h"
+#include "planes/selection/select.h"
 #include "unseen/planes/types.h"
 
 namespace unseen::planes {

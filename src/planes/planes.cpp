@@ -7,14 +7,14 @@
 #include <algorithm>
 
 #include "planes/arrange.h"
-#include "planes/assign.h"
-#include "planes/cells.h"
-#include "planes/describe.h"
-#include "planes/doubt.h"
-#include "planes/patches.h"
-#include "planes/remarks.h"
-#include "planes/scale.h"
-#include "planes/select.h"
+#include "planes/patches/doubt.h"
+#include "planes/patches/patches.h"
+#include "planes/result/assign.h"
+#include "planes/result/describe.h"
+#include "planes/result/remarks.h"
+#include "planes/scan/cells.h"
+#include "planes/scan/scale.h"
+#include "planes/selection/select.h"
 #include "unseen/core/error.h"
 
 namespace unseen::planes {

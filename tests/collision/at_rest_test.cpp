@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // A ball lies on a tee until another hits it.
-#include "collision/at_rest.h"
+#include "collision/tracks/at_rest.h"
 
 #include <gtest/gtest.h>
 

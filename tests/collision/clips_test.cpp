@@ -10,8 +10,8 @@
 #include <optional>
 #include <sstream>
 
-#include "collision/regions.h"
-#include "collision/tracks.h"
+#include "collision/tracks/tracks.h"
+#include "collision/video/regions.h"
 
 namespace unseen::collision::test {
 namespace {

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "collision/contact.h"
-#include "collision/contact_law.h"
+#include "collision/solve/contact.h"
+#include "collision/solve/contact_law.h"
 #include "unseen/core/error.h"
 #include "unseen/core/random.h"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // Frames are counted by what was seen.
-#include "collision/counting.h"
+#include "collision/tracks/counting.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "collision/flight_cost.h"
-#include "collision/tracks.h"
+#include "collision/tracks/flight_cost.h"
+#include "collision/tracks/tracks.h"
 #include "collision/two_balls.h"
 
 namespace unseen::collision::test {

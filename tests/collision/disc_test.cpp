@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/disc.h"
+#include "collision/tracks/disc.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/drag.h"
+#include "collision/solve/drag.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "collision/flight.h"
+#include "collision/solve/flight.h"
 #include "unseen/collision/collision.h"
 #include "unseen/core/error.h"
 #include "unseen/core/random.h"

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/penetration.h"
+#include "collision/evaluate/penetration.h"
+#include "collision/orientations/symmetry.h"
 #include "collision/sample.h"
-#include "collision/symmetry.h"
 #include "unseen/collision/body_mesh.h"
 #include "unseen/core/error.h"
 

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "collision/chain.h"
-#include "collision/pair_links.h"
 #include "collision/pair_scene.h"
-#include "collision/tracks.h"
-#include "collision/two_body.h"
+#include "collision/tracks/chain.h"
+#include "collision/tracks/pair_links.h"
+#include "collision/tracks/tracks.h"
+#include "collision/tracks/two_body.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision::test {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // A heavy ball flies on as if nothing had been, where a light one comes back from it.
-#include "collision/heavy_body.h"
+#include "collision/tracks/heavy_body.h"
 
 #include <gtest/gtest.h>
 
 #include "collision/pair_scene.h"
-#include "collision/tracks.h"
+#include "collision/tracks/tracks.h"
 #include "unseen/collision/collision.h"
 #include "unseen/core/random.h"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // Impacts that nobody sees for long: flights in space tell of them.
-#include "collision/meeting_in_space.h"
+#include "collision/tracks/meeting_in_space.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "collision/pair_links.h"
 #include "collision/pair_scene.h"
+#include "collision/tracks/pair_links.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision::test {

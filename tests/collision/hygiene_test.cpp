@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // What is wrong with a file rather than with what it shows: repeated, missing and broken frames, uneven stamps.
-#include "collision/hygiene.h"
+#include "collision/video/hygiene.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "collision/regions.h"
+#include "collision/video/regions.h"
 #include "little_videos.h"
 #include "unseen/core/error.h"
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // The noise of sightings, its size and its shape, and what is to be gained from it.
-#include "collision/noise.h"
+#include "collision/doubts/noise.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <vector>
 
-#include "collision/best_fit.h"
-#include "collision/restitution.h"
-#include "collision/solve.h"
+#include "collision/doubts/restitution.h"
+#include "collision/solve/best_fit.h"
+#include "collision/solve/solve.h"
+#include "collision/solve/unknowns.h"
 #include "collision/two_balls.h"
-#include "collision/unknowns.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/doubts/restitution.h"
 #include "collision/filmed_bounce.h"
-#include "collision/restitution.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/one_flight.h"
+#include "collision/tracks/one_flight.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "collision/pair_scene.h"
-#include "collision/tracks.h"
+#include "collision/tracks/tracks.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision::test {

@@ -8,7 +8,7 @@
 #include "collision/describe.h"
 #include "collision/shot_problem.h"
 #include "collision/solve_impacts.h"
-#include "collision/tracks.h"
+#include "collision/tracks/tracks.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
 #include "unseen/core/error.h"

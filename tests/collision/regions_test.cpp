@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/regions.h"
+#include "collision/video/regions.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <opencv2/imgproc.hpp>
 
-#include "collision/stabilise.h"
+#include "collision/video/stabilise.h"
 #include "little_videos.h"
 #include "unseen/core/error.h"
 

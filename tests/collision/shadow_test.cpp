@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/shadow.h"
+#include "collision/video/shadow.h"
 
 #include <gtest/gtest.h>
 
-#include "collision/candidates.h"
-#include "collision/chain.h"
-#include "collision/regions.h"
-#include "collision/tracks.h"
+#include "collision/tracks/candidates.h"
+#include "collision/tracks/chain.h"
+#include "collision/tracks/tracks.h"
+#include "collision/video/regions.h"
 #include "little_videos.h"
 
 namespace unseen::collision::test {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/silhouette.h"
+#include "collision/orientations/silhouette.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
-#include "collision/contact.h"
-#include "collision/symmetry.h"
-#include "collision/views.h"
+#include "collision/orientations/symmetry.h"
+#include "collision/orientations/views.h"
+#include "collision/solve/contact.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/size_trend.h"
+#include "collision/doubts/size_trend.h"
 
 #include <gtest/gtest.h>
 

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "collision/best_fit.h"
-#include "collision/model_check.h"
-#include "collision/restitution.h"
-#include "collision/rotation.h"
-#include "collision/spin_starts.h"
-#include "collision/uncertainty.h"
-#include "collision/unknowns.h"
+#include "collision/doubts/model_check.h"
+#include "collision/doubts/restitution.h"
+#include "collision/doubts/uncertainty.h"
+#include "collision/solve/best_fit.h"
+#include "collision/solve/rotation.h"
+#include "collision/solve/spin_starts.h"
+#include "collision/solve/unknowns.h"
 #include "unseen/collision/synth.h"
 #include "unseen/core/random.h"
 

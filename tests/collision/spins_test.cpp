@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "collision/contact.h"
-#include "collision/orientations.h"
-#include "collision/symmetry.h"
+#include "collision/orientations/orientations.h"
+#include "collision/orientations/symmetry.h"
+#include "collision/solve/contact.h"
 #include "unseen/collision/synth.h"
 #include "unseen/core/error.h"
 #include "unseen/io/write_video.h"

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/mass_properties.h"
-#include "collision/synth_body.h"
-#include "collision/synth_motion.h"
+#include "collision/solve/mass_properties.h"
+#include "collision/synth/synth_body.h"
+#include "collision/synth/synth_motion.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {

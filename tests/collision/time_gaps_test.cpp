@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/time_gaps.h"
+#include "collision/tracks/time_gaps.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 
-#include "collision/flight_search.h"
-#include "collision/penetration.h"
-#include "collision/rotation.h"
-#include "collision/touching.h"
-#include "collision/touching_fit.h"
+#include "collision/evaluate/penetration.h"
+#include "collision/solve/rotation.h"
+#include "collision/solve/touching.h"
+#include "collision/solve/touching_fit.h"
+#include "collision/tracks/flight_search.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
 #include "unseen/core/random.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/tracks.h"
+#include "collision/tracks/tracks.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "collision/arcs.h"
-#include "collision/chain.h"
 #include "collision/pair_scene.h"
+#include "collision/tracks/arcs.h"
+#include "collision/tracks/chain.h"
 #include "unseen/core/random.h"
 
 namespace unseen::collision::test {

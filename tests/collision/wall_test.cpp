@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "collision/chain.h"
 #include "collision/filmed_bounce.h"
+#include "collision/tracks/chain.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
 #include "unseen/core/random.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/which_body.h"
+#include "collision/tracks/which_body.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "collision/centering.h"
-#include "collision/pose_cost.h"
-#include "collision/rotation.h"
+#include "collision/orientations/centering.h"
+#include "collision/orientations/pose_cost.h"
+#include "collision/solve/rotation.h"
 
 namespace unseen::collision::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "cuboids/problem.h"
+#include "cuboids/search/problem.h"
 
 namespace unseen::cuboids {
 

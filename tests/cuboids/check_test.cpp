@@ -7,7 +7,7 @@
 
 #include <filesystem>
 
-#include "cuboids/convex_parts.h"
+#include "cuboids/statics/convex_parts.h"
 #include "unseen/core/error.h"
 #include "unseen/io/assembly.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // What proves that an arrangement falls.
-#include "cuboids/collapse.h"
+#include "cuboids/search/collapse.h"
 
 #include <gtest/gtest.h>
 
 #include "cuboids/box_problems.h"
-#include "cuboids/hypotheses.h"
+#include "cuboids/search/hypotheses.h"
 
 namespace unseen::cuboids {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // From boxes to a scene that stands: each step against geometry, the whole against generated scenes.
-#include "cuboids/complete.h"
+#include "cuboids/search/complete.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "cuboids/hypotheses.h"
 #include "box_problems.h"
+#include "cuboids/search/hypotheses.h"
 #include "synth_frame.h"
 #include "unseen/cuboids/cuboids.h"
 #include "unseen/cuboids/synth.h"

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "cuboids/slabs.h"
+#include "cuboids/objects/slabs.h"
 #include "perception_scenes.h"
 #include "unseen/cuboids/cuboids.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "cuboids/depth_view.h"
+#include "cuboids/surfaces/depth_view.h"
 
 #include <gtest/gtest.h>
 

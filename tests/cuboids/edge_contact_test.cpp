@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // Boxes that meet along parallel edges.
-#include "cuboids/edge_contact.h"
+#include "cuboids/statics/edge_contact.h"
 
 #include <gtest/gtest.h>
 
 #include "cuboids/stacks.h"
-#include "cuboids/statics.h"
+#include "cuboids/statics/statics.h"
 
 namespace unseen::cuboids {
 namespace {

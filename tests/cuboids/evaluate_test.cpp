@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cuboids/box_overlap.h"
-#include "cuboids/evaluate_parts.h"
-#include "cuboids/referee.h"
+#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/evaluate/evaluate_parts.h"
+#include "cuboids/evaluate/referee.h"
 #include "unseen/core/error.h"
 #include "unseen/core/random.h"
 

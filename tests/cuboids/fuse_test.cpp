@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include "cuboids/complete.h"
+#include "cuboids/search/complete.h"
 #include "perception_scenes.h"
 
 namespace unseen::cuboids::test {

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "cuboids/contact_loads.h"
 #include "cuboids/stacks.h"
-#include "cuboids/statics.h"
+#include "cuboids/statics/contact_loads.h"
+#include "cuboids/statics/statics.h"
 
 namespace unseen::cuboids {
 namespace {

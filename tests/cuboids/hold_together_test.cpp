@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "box_problems.h"
-#include "cuboids/complete.h"
+#include "cuboids/search/complete.h"
 
 namespace unseen::cuboids {
 namespace {

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "cuboids/picture_registration.h"
+#include "cuboids/boxes/picture_registration.h"
 #include "perception_scenes.h"
 
 namespace unseen::cuboids::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // Where solids meet, against sampling and alternating projections.
-#include "cuboids/interface.h"
+#include "cuboids/statics/interface.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cuboids/depth_noise.h"
+#include "cuboids/surfaces/depth_noise.h"
 #include "synth_frame.h"
 #include "unseen/cuboids/cuboids.h"
 

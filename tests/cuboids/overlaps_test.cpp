@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "box_problems.h"
-#include "cuboids/complete.h"
-#include "cuboids/trims.h"
+#include "cuboids/search/complete.h"
+#include "cuboids/search/trims.h"
 #include "unseen/cuboids/evaluate.h"
 
 namespace unseen::cuboids {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "cuboids/cuts.h"
-#include "cuboids/depth_noise.h"
-#include "cuboids/observation.h"
+#include "cuboids/objects/cuts.h"
+#include "cuboids/surfaces/depth_noise.h"
+#include "cuboids/surfaces/observation.h"
 #include "unseen/core/random.h"
 
 namespace unseen::cuboids::test {

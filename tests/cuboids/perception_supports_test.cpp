@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "cuboids/hypotheses.h"
-#include "cuboids/interface.h"
-#include "cuboids/levels.h"
+#include "cuboids/search/hypotheses.h"
+#include "cuboids/statics/interface.h"
+#include "cuboids/surfaces/levels.h"
 #include "perception_scenes.h"
 #include "unseen/core/error.h"
 #include "unseen/cuboids/cuboids.h"

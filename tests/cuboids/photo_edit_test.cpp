@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cuboids/inpaint.h"
+#include "cuboids/applications/inpaint.h"
 #include "cuboids/photo_fixture.h"
 #include "unseen/core/error.h"
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <functional>
 
-#include "cuboids/tints.h"
+#include "cuboids/objects/tints.h"
 #include "perception_scenes.h"
 
 namespace unseen::cuboids::test {

@@ -3,8 +3,8 @@
 // Boxes that were given turned and sized a little wrong.
 #include <gtest/gtest.h>
 
-#include "cuboids/complete.h"
-#include "cuboids/hypotheses.h"
+#include "cuboids/search/complete.h"
+#include "cuboids/search/hypotheses.h"
 #include "perception_scenes.h"
 #include "unseen/cuboids/cuboids.h"
 

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "cuboids/box_matching.h"
+#include "cuboids/applications/box_matching.h"
+#include "cuboids/applications/model_boxes.h"
+#include "cuboids/applications/registration.h"
 #include "cuboids/furniture_fixture.h"
-#include "cuboids/model_boxes.h"
-#include "cuboids/registration.h"
 #include "unseen/core/error.h"
 
 namespace unseen::cuboids {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "cuboids/search.h"
+#include "cuboids/search/search.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 #include <optional>
 
-#include "cuboids/collapse.h"
-#include "cuboids/hypotheses.h"
+#include "cuboids/search/collapse.h"
+#include "cuboids/search/hypotheses.h"
 #include "unseen/core/random.h"
 
 namespace unseen::cuboids {

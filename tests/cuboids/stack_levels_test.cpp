@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "cuboids/complete.h"
-#include "cuboids/groove.h"
-#include "cuboids/stack_levels.h"
+#include "cuboids/objects/groove.h"
+#include "cuboids/objects/stack_levels.h"
+#include "cuboids/search/complete.h"
 #include "perception_scenes.h"
 #include "synth_frame.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cuboids/interface.h"
+#include "cuboids/statics/interface.h"
 #include "unseen/core/random.h"
 
 namespace unseen::test {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cuboids/engines.h"
-#include "cuboids/statics.h"
+#include "cuboids/statics/statics.h"
 
 namespace unseen::test {
 

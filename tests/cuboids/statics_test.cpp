@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // Equilibrium against closed forms, and the proofs that each verdict carries with it.
-#include "cuboids/statics.h"
+#include "cuboids/statics/statics.h"
 
 #include <gtest/gtest.h>
 

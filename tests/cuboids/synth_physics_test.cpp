@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cuboids/referee.h"
+#include "cuboids/evaluate/referee.h"
 #include "unseen/cuboids/synth.h"
 
 namespace unseen::cuboids {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "cuboids/synth_sensor.h"
+#include "cuboids/synth/synth_sensor.h"
 #include "unseen/core/error.h"
 #include "unseen/core/random.h"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "interactions/cut.h"
-#include "interactions/saliency.h"
+#include "interactions/database/cut.h"
+#include "interactions/database/saliency.h"
 #include "interactions/scenelets_sample.h"
 #include "unseen/core/error.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "interactions/footprint.h"
+#include "interactions/database/footprint.h"
 #include "interactions/scenelets_sample.h"
 #include "unseen/core/error.h"
 #include "unseen/interactions/scenelets.h"

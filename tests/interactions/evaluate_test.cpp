@@ -9,9 +9,9 @@
 #include <limits>
 #include <tuple>
 
-#include "interactions/assignment.h"
-#include "interactions/evaluate_parts.h"
-#include "interactions/footprint.h"
+#include "interactions/database/footprint.h"
+#include "interactions/evaluate/assignment.h"
+#include "interactions/evaluate/evaluate_parts.h"
 #include "unseen/core/random.h"
 
 namespace unseen::interactions {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/evidence.h"
+#include "interactions/matching/evidence.h"
 
 #include <gtest/gtest.h>
 

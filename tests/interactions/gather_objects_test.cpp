@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/gather_objects.h"
+#include "interactions/layout/gather_objects.h"
 
 #include <gtest/gtest.h>
 

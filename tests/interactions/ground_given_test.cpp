@@ -2,9 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "interactions/ground.h"
-#include "interactions/ground_fit.h"
-#include "interactions/sight.h"
+#include "interactions/ground/ground.h"
+#include "interactions/ground/ground_fit.h"
+#include "interactions/ground/sight.h"
 #include "unseen/interactions/synth.h"
 
 namespace unseen::interactions {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/ground.h"
+#include "interactions/ground/ground.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "interactions/ground_fit.h"
+#include "interactions/ground/ground_fit.h"
 #include "interactions/method_samples.h"
 #include "unseen/report/scenelets_file.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/identities.h"
+#include "interactions/people/identities.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <functional>
 #include <limits>
 
-#include "interactions/identity_costs.h"
+#include "interactions/people/identity_costs.h"
 #include "unseen/core/error.h"
 #include "unseen/core/random.h"
 

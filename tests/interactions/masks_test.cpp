@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/masks.h"
+#include "interactions/layout/masks.h"
 
 #include <gtest/gtest.h>
 

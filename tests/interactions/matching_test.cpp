@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/matching.h"
+#include "interactions/matching/matching.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/merge_takes.h"
+#include "interactions/people/merge_takes.h"
 
 #include <gtest/gtest.h>
 

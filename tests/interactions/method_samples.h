@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "interactions/matching.h"
+#include "interactions/matching/matching.h"
 #include "unseen/interactions/synth.h"
 
 // Generated takes as the stages of the method see them.

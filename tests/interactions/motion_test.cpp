@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/motion.h"
+#include "interactions/people/motion.h"
 
 #include <gtest/gtest.h>
 

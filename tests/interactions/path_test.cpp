@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/path.h"
+#include "interactions/people/path.h"
 
 #include <gtest/gtest.h>
 

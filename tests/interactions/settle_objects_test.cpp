@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/settle_objects.h"
+#include "interactions/layout/settle_objects.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/slips.h"
+#include "interactions/people/slips.h"
 
 #include <gtest/gtest.h>
 
-#include "interactions/identity_costs.h"
-#include "interactions/merge_takes.h"
 #include "interactions/method_samples.h"
+#include "interactions/people/identity_costs.h"
+#include "interactions/people/merge_takes.h"
 
 namespace unseen::interactions {
 namespace {

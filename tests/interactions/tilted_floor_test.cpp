@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/tilted_floor.h"
+#include "interactions/ground/tilted_floor.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "interactions/ground/sight.h"
 #include "interactions/method_samples.h"
-#include "interactions/sight.h"
 #include "unseen/core/random.h"
 
 namespace unseen::interactions {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/use.h"
+#include "interactions/layout/use.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "planes/reconcile.h"
+#include "planes/relations/reconcile.h"
 #include "planes/scenes.h"
 #include "unseen/planes/synth.h"
 

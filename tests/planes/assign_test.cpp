@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/assign.h"
+#include "planes/result/assign.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/cells.h"
+#include "planes/scan/cells.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

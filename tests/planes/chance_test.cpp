@@ -3,7 +3,7 @@
 // Frames that patches suit because there are many frames.
 #include <gtest/gtest.h>
 
-#include "planes/relate.h"
+#include "planes/relations/relate.h"
 #include "planes/scenes.h"
 
 namespace unseen::planes {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/cuts.h"
+#include "planes/patches/cuts.h"
 
 #include <gtest/gtest.h>
 

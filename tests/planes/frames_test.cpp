@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/frames.h"
+#include "planes/selection/frames.h"
 
 #include <gtest/gtest.h>
 

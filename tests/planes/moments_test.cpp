@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/moments.h"
+#include "planes/scan/moments.h"
 
 #include <gtest/gtest.h>
 

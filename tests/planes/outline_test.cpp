@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/outline.h"
+#include "planes/result/outline.h"
 
 #include <gtest/gtest.h>
 

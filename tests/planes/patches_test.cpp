@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/patches.h"
+#include "planes/patches/patches.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "planes/frames.h"
 #include "planes/scenes.h"
+#include "planes/selection/frames.h"
 
 namespace unseen::planes {
 namespace {

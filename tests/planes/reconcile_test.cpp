@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/reconcile.h"
+#include "planes/relations/reconcile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // Neighbourhoods in a survey's sample, against looking at every point of it.
-#include "planes/sample_slabs.h"
+#include "planes/scan/sample_slabs.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // The estimated scale: spacing and noise of the surfaces, whatever else a scan holds.
 #include <gtest/gtest.h>
 
-#include "planes/scale.h"
+#include "planes/scan/scale.h"
 #include "planes/scenes.h"
 #include "unseen/core/error.h"
 

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "planes/cells.h"
-#include "planes/patches.h"
-#include "planes/voxels.h"
+#include "planes/patches/patches.h"
+#include "planes/scan/cells.h"
+#include "planes/scan/voxels.h"
 #include "unseen/core/point_cloud.h"
 #include "unseen/core/random.h"
 #include "unseen/io/points.h"

@@ -3,7 +3,7 @@
 // Equal steps between parallel planes.
 #include <gtest/gtest.h>
 
-#include "planes/describe.h"
+#include "planes/result/describe.h"
 #include "unseen/core/random.h"
 
 namespace unseen::planes {

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "planes/select.h"
-#include "planes/selection.h"
+#include "planes/selection/select.h"
+#include "planes/selection/selection.h"
 #include "unseen/core/random.h"
 
 namespace unseen::planes::test {

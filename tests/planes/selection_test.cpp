@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/selection.h"
+#include "planes/selection/selection.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
-#include "planes/scale.h"
+#include "planes/scan/scale.h"
 #include "planes/scenes.h"
 #include "unseen/core/error.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "planes/describe.h"
+#include "planes/result/describe.h"
 #include "planes/scenes.h"
 
 namespace unseen::planes {

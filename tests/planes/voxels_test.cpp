@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/voxels.h"
+#include "planes/scan/voxels.h"
 
 #include <gtest/gtest.h>
 

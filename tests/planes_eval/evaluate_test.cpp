@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planes/triangle_tree.h"
+#include "planes/evaluate/triangle_tree.h"
 #include "unseen/core/error.h"
 #include "unseen/core/random.h"
 

@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <iostream>
 
-#include "planes/triangle_tree.h"
+#include "planes/evaluate/triangle_tree.h"
 #include "planes_eval/reference_files.h"
 #include "unseen/planes/evaluate.h"
 

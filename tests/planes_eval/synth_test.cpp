@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "planes/triangle_tree.h"
+#include "planes/evaluate/triangle_tree.h"
 #include "unseen/core/error.h"
 
 namespace unseen::planes {

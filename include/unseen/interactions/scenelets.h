@@ -27,7 +27,7 @@ struct Scenelet {
   std::vector<Object> objects;
   std::vector<float> layout;    ///< Φ, [category][row][column]
   std::vector<float> saliency;  ///< h, the same places
-  double highest_saliency = 0;  ///< H in [0,1]: above what any motion has, see src/interactions/saliency.h
+  double highest_saliency = 0;  ///< H in [0,1]: above what any motion has, see src/interactions/database/saliency.h
 };
 
 struct Source {

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/solve/residuals.h"
+
+#include <ceres/loss_function.h>
+#include <ceres/sized_cost_function.h>
+
+#include <algorithm>
+
+#include "collision/solve/physics_terms.h"
+#include "collision/solve/seen_terms.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kPointHuber = 3.0;        // in noise
+constexpr double kOrientationHuber = 2.0;  // in noise
+
+/// A term as a cost function; the state and its derivatives come from the evaluation that is under way.
+template <class Term>
+class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
+ public:
+  TermCost(Term term, const EvaluatedState& evaluation) : term_(std::move(term)), evaluation_(evaluation) {}
+
+  /// False where a step led to where nothing can be computed.
+  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
+    constexpr int kResiduals = Term::kResiduals;
+    const bool derive = jacobians && jacobians[0];
+    compute(residuals, derive ? jacobians[0] : nullptr);
+    return Eigen::Map<const Eigen::Matrix<double, kResiduals, 1>>(residuals).allFinite() &&
+           (!derive || Eigen::Map<const Eigen::Matrix<double, kResiduals * kUnknowns, 1>>(jacobians[0]).allFinite());
+  }
+
+ private:
+  /// Row by row; no derivatives without `jacobian`.
+  void compute(double* residuals, double* jacobian) const {
+    constexpr int kResiduals = Term::kResiduals;
+    if constexpr (requires { Term::kParts; }) {
+      constexpr int kParts = Term::kParts;
+      if (!jacobian) {
+        std::array<double, kParts> in;
+        const auto parts = term_.parts(evaluation_.state);
+        for (int i = 0; i < kParts; ++i) in[i] = *parts[i];
+        term_.of_parts(in, residuals, evaluation_.state);
+        return;
+      }
+      using Lean = ceres::Jet<double, kParts>;
+      std::array<Lean, kParts> in;
+      const auto parts = term_.parts(evaluation_.wide);
+      for (int i = 0; i < kParts; ++i) in[i] = Lean(parts[i]->a, i);
+      std::array<Lean, kResiduals> r;
+      term_.of_parts(in, r.data(), evaluation_.state);
+      Eigen::Map<Eigen::Matrix<double, kResiduals, kUnknowns, Eigen::RowMajor>> rows(jacobian);
+      for (int k = 0; k < kResiduals; ++k) {
+        residuals[k] = r[k].a;
+        rows.row(k).setZero();
+        for (int i = 0; i < kParts; ++i) rows.row(k) += r[k].v[i] * parts[i]->v.transpose();
+      }
+    } else {
+      if (!jacobian) {
+        term_.of_state(evaluation_.state, residuals);
+        return;
+      }
+      std::array<Wide, kResiduals> r;
+      term_.of_state(evaluation_.wide, r.data());
+      for (int k = 0; k < kResiduals; ++k) {
+        residuals[k] = r[k].a;
+        Eigen::Map<Eigen::Matrix<double, kUnknowns, 1>>(jacobian + k * kUnknowns) = r[k].v;
+      }
+    }
+  }
+
+  Term term_;
+  const EvaluatedState& evaluation_;
+};
+
+/// Half of it is the fourth power of the residual.
+class SquareLoss : public ceres::LossFunction {
+ public:
+  void Evaluate(double s, double rho[3]) const override {
+    rho[0] = 2.0 * s * s;
+    rho[1] = 4.0 * s;
+    rho[2] = 4.0;
+  }
+};
+
+class Adder {
+ public:
+  Adder(EvaluatedState& evaluation, ceres::Problem& ceres) : evaluation_(evaluation), ceres_(ceres) {}
+
+  template <class Term>
+  void add(const std::string& name, Term term, ceres::LossFunction* loss = nullptr) {
+    blocks.push_back({name, ceres_.AddResidualBlock(new TermCost<Term>(std::move(term), evaluation_), loss, evaluation_.unknowns.data())});
+  }
+  std::vector<NamedBlock> blocks;
+
+ private:
+  EvaluatedState& evaluation_;
+  ceres::Problem& ceres_;
+};
+
+/// Distance that poses at the impact are known to: touching is asked for within this.
+double touch_sigma(const Problem& problem) {
+  return 0.001 + 0.005 * std::max(problem.solids[0].mass.extent, problem.solids[1].mass.extent);
+}
+
+}  // namespace
+
+EvaluatedState::EvaluatedState(const Problem& problem, const State& reference) : problem(problem), reference(reference), turned(problem.orientations.size()) {
+  for (const int body : {0, 1})
+    for (const bool after : {false, true}) {
+      SeenTurning seen{body, after, {}};
+      for (std::size_t i = 0; i < problem.orientations.size() && problem.terms.orientation; ++i)
+        if (problem.orientations[i].body == body && problem.orientations[i].after == after) seen.orientations.push_back(i);
+      const auto time = [&](std::size_t i) { return problem.orientations[i].time; };
+      std::stable_sort(seen.orientations.begin(), seen.orientations.end(), [&](std::size_t a, std::size_t b) { return after ? time(a) < time(b) : time(a) > time(b); });
+      if (!seen.orientations.empty()) turnings_.push_back(std::move(seen));
+    }
+}
+
+void EvaluatedState::PrepareForEvaluation(bool jacobians, bool new_point) {
+  if (!new_point && (!jacobians || has_derivatives)) return;
+  state = unpack<double>(problem, reference, unknowns.data());
+  has_derivatives = jacobians;
+  for (const SeenTurning& seen : turnings_) {
+    const auto o = static_cast<std::size_t>(seen.body);
+    std::vector<double> times;
+    for (const std::size_t i : seen.orientations) times.push_back(problem.orientations[i].time - state.time);
+    const auto ends = turned_through(state.q[o], seen.after ? state.h_after[o] : state.h[o], problem.solids[o].mass.inertia, times, jacobians);
+    for (std::size_t k = 0; k < ends.size(); ++k) turned[seen.orientations[k]] = ends[k];
+  }
+  if (!jacobians) return;
+  std::array<Wide, kUnknowns> u;
+  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(unknowns[i], i);
+  wide = unpack<Wide>(problem, reference, u.data());
+}
+
+std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, EvaluatedState& evaluation, ceres::Problem& ceres) {
+  const Problem& problem = evaluation.problem;
+  const State& reference = evaluation.reference;
+  const Base base{problem, reference};
+  const Terms& terms = problem.terms;
+  Adder adder(evaluation, ceres);
+  for (const PointObservation& seen : problem.points) {
+    if (problem.noise_power == 2.0)
+      adder.add("points", PointTerm{base, seen}, new ceres::HuberLoss(kPointHuber));
+    else
+      for (const int axis : {0, 1}) adder.add("points", FlatPointTerm{base, seen, axis}, new SquareLoss);
+    if (terms.size && seen.depth > 0.0) adder.add("size", DepthTerm{base, seen}, new ceres::HuberLoss(1.0));
+  }
+  if (terms.size)
+    for (const SizeTrend& seen : problem.trends) adder.add("size trend", TrendTerm{base, seen}, new ceres::HuberLoss(1.0));
+  if (terms.orientation)
+    for (std::size_t i = 0; i < problem.orientations.size(); ++i)
+      adder.add("orientation", OrientationTerm{base, problem.orientations[i], evaluation.turned[i]}, new ceres::HuberLoss(kOrientationHuber));
+  if (!problem.orientations.empty()) adder.add("spin", SpinTerm{base});
+  if (terms.gravity && problem.gravity > 0.0) adder.add("gravity", GravityTerm{base});
+  if (terms.gravity && problem.plumb) adder.add("plumb", PlumbTerm{base});
+  if (terms.energy) adder.add("energy", EnergyTerm{base});
+  if (terms.restitution) adder.add("restitution", RestitutionTerm{base});
+  if (touch && reference.law) adder.add("friction", FrictionTerm{base});
+  if (problem.planar) adder.add("planar", PlanarTerm{base});
+  if (touch)
+    adder.add("touch", TouchTerm{base, *touch, touch_sigma(problem)});
+  else
+    adder.add("midpoint", MidpointTerm{base});
+  for (const OtherContact& other : problem.other_contacts) adder.add("height", HeightTerm{base, other});
+  if (terms.soft) {
+    constexpr double kWeight = 100.0;  // per m/s: the thesis's 10 against the mean squared error of a hundred centroids known to a third of a pixel
+    if (terms.momentum && !problem.fixed) adder.add("momentum", MomentumTerm{base, kWeight});
+    if (terms.impulse) adder.add("impulse", ImpulseTerm{base, 0.5 * kWeight});
+  }
+  return adder.blocks;
+}
+
+}  // namespace unseen::collision

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "collision/solve/solve.h"
+
+#include <ceres/cost_function.h>
+#include <ceres/covariance.h>
+#include <ceres/manifold.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "collision/doubts/noise.h"
+#include "collision/solve/residuals.h"
+#include "collision/solve/unknowns.h"
+
+namespace unseen::collision {
+namespace {
+
+constexpr double kMostRatio = 1000.0;  // of masses: beyond, the heavier body might as well be fixed
+
+/// The unknowns that nothing in the shot tells of, or that are given.
+std::vector<int> held_unknowns(const Problem& problem) {
+  std::vector<int> held;
+  const auto hold = [&](int from, int count) {
+    for (int i = 0; i < count; ++i) held.push_back(from + i);
+  };
+  if (problem.gravity == 0.0) hold(kDown, 2);
+  if (problem.fixed || problem.mass_ratio) hold(kLogMass, 1);
+  for (int o = 0; o < 2; ++o) {
+    const bool still = o == 1 && problem.fixed;
+    if (still) hold(kP + 3 * o, 3), hold(kV + 3 * o, 3);
+    if (!problem.flies(o, false)) hold(kV + 3 * o, 3);
+    if (still || !problem.turns(o)) hold(kTurn + 3 * o, 3), hold(kH + 3 * o, 3);
+    if (!problem.terms.soft || still) hold(kVAfter + 3 * o, 3);
+    if (!problem.terms.soft || still || !problem.turns(o)) hold(kHAfter + 3 * o, 3);
+  }
+  if (problem.is_of_centres()) hold(kX, 3);
+  std::sort(held.begin(), held.end());
+  return held;
+}
+
+/// Where the shapes meet in this state; nothing where a shape or its orientation is not known.
+std::optional<Proximity> touch_of(const Problem& problem, const State& state) {
+  const Solid& a = problem.solids[0];
+  const double tolerance = 0.03 * a.mass.extent;
+  if (!problem.has_pose(0)) return std::nullopt;
+  if (problem.fixed) {
+    const std::optional<Vec3> normal = problem.normal_of_fixed(state.down);
+    if (!normal) return std::nullopt;
+    const bool along_impulse = a.is_sphere() && !problem.friction && state.impulse.norm() > 0.0;
+    Proximity near = nearest_to_plane(a, state.p[0], state.q[0], along_impulse ? Vec3(state.impulse.normalized()) : *normal, tolerance);
+    if (problem.level && !along_impulse) near.law.kind = ContactLaw::Kind::level;
+    return near;
+  }
+  if (!problem.has_pose(1)) return std::nullopt;
+  return nearest(a, state.p[0], state.q[0], problem.solids[1], state.p[1], state.q[1], tolerance);
+}
+
+/// How the contact's normal follows the bodies, where it does not follow the impulse.
+std::optional<ContactLaw> law_of(const Problem& problem, const State& state, const std::optional<Proximity>& touch) {
+  if (!problem.friction) return std::nullopt;
+  if (touch) return touch->law;
+  const std::optional<Vec3> normal = problem.fixed ? problem.normal_of_fixed(state.down) : std::nullopt;
+  if (!normal) return std::nullopt;
+  ContactLaw law;
+  law.kind = problem.level ? ContactLaw::Kind::level : ContactLaw::Kind::constant;
+  law.a = *normal;
+  return law;
+}
+
+/// The impact lies between the last sighting before it and the first after, or not far from there.
+std::pair<double, double> impact_times(const Problem& problem) {
+  double last = -1e9, first = 1e9, begin = 1e9, end = -1e9;
+  for (const PointObservation& p : problem.points) {
+    (p.after ? first : last) = p.after ? std::min(first, p.time) : std::max(last, p.time);
+    begin = std::min(begin, p.time);
+    end = std::max(end, p.time);
+  }
+  const double margin = 0.05 * (end - begin);
+  return {std::min(last, first) - margin, std::max(last, first) + margin};
+}
+
+/// A Ceres problem with the evaluation that its terms share.
+struct Setup {
+  Setup(const Problem& problem, const State& reference, const std::optional<Proximity>& touch)
+      : evaluation(problem, reference), ceres(options()), blocks(add_residuals(touch, evaluation, ceres)) {
+    ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem)));
+    const auto [earliest, latest] = impact_times(problem);
+    ceres.SetParameterLowerBound(unknowns(), kTime, std::min(0.0, earliest - reference.time));
+    ceres.SetParameterUpperBound(unknowns(), kTime, std::max(0.0, latest - reference.time));
+    ceres.SetParameterLowerBound(unknowns(), kLogMass, std::min(0.0, std::log(1.0 / kMostRatio / reference.mass_ratio)));
+    ceres.SetParameterUpperBound(unknowns(), kLogMass, std::max(0.0, std::log(kMostRatio / reference.mass_ratio)));
+  }
+  double* unknowns() { return evaluation.unknowns.data(); }
+
+  EvaluatedState evaluation;
+  ceres::Problem ceres;
+  std::vector<NamedBlock> blocks;
+
+ private:
+  ceres::Problem::Options options() {
+    ceres::Problem::Options options;
+    options.evaluation_callback = &evaluation;
+    return options;
+  }
+};
+
+/// One descent; the contact's features stay as they are.
+bool descend(const Problem& problem, const std::optional<Proximity>& touch, int iterations, State& state, double& cost) {
+  const State reference = state;
+  Setup setup(problem, reference, touch);
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = 1e-10;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  if (!setup.ceres.Evaluate({}, &cost, nullptr, nullptr, nullptr)) return false;  // Ceres would write to the user's terminal
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &setup.ceres, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+  state = state_at(problem, reference, setup.unknowns());
+  cost = summary.final_cost;
+  return true;
+}
+
+/// Bounds on energy and restitution come last: on the way they would hold a solution back that leads to a better one within them.
+Problem without_bounds(Problem problem) {
+  problem.terms.energy = problem.terms.restitution = false;
+  return problem;
+}
+
+std::map<std::string, double> term_sizes(const Problem& problem, const Fit& fit) {
+  Setup setup(problem, fit.state, fit.touch);
+  setup.evaluation.PrepareForEvaluation(false, true);
+  std::map<std::string, std::pair<double, int>> sums;
+  for (const NamedBlock& block : setup.blocks) {
+    std::array<double, 16> residuals = {};
+    double cost = 0.0;
+    if (!setup.ceres.EvaluateResidualBlockAssumingParametersUnchanged(block.id, false, &cost, residuals.data(), nullptr)) continue;
+    auto& [sum, count] = sums[block.term];
+    sum += 2.0 * cost;
+    count += setup.ceres.GetCostFunctionForResidualBlock(block.id)->num_residuals();
+  }
+  std::map<std::string, double> sizes;
+  for (const auto& [name, sum] : sums) sizes[name] = std::sqrt(sum.first / sum.second);
+  return sizes;
+}
+
+/// Value and deviation of a function of the unknowns.
+Estimate estimate(const Wide& value, const Eigen::MatrixXd& covariance) {
+  Estimate e;
+  e.value = value.a;
+  e.sd = std::sqrt(std::max(0.0, value.v.dot(covariance * value.v)));
+  e.low = e.value - 1.96 * e.sd;
+  e.high = e.value + 1.96 * e.sd;
+  return e;
+}
+
+}  // namespace
+
+Fit approach(const Problem& problem, const State& start) {
+  constexpr int kIterations = 40;
+  Fit fit;
+  fit.state = start;
+  fit.state.law.reset();
+  const Problem free = without_bounds(problem);
+  if (!problem.terms.soft && !problem.orientations.empty()) {  // momenta on both sides first, then the impulse that joins them
+    Problem apart = free;
+    apart.terms.soft = true;
+    if (!descend(apart, std::nullopt, kIterations, fit.state, fit.cost)) fit.state = start;
+  }
+  fit.usable = descend(free, std::nullopt, kIterations, fit.state, fit.cost);
+  return fit;
+}
+
+Fit try_out(const Problem& problem, const State& start) {
+  constexpr int kIterations = 12;
+  Fit fit;
+  fit.state = start;
+  fit.touch = touch_of(problem, start);
+  fit.state.law = law_of(problem, fit.state, fit.touch);
+  fit.usable = descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
+  fit.state.law.reset();
+  return fit;
+}
+
+Fit settle(const Problem& problem, const State& start) {
+  constexpr int kIterations = 60, kTouches = 6;
+  Fit fit;
+  fit.state = start;
+  for (int i = 0; i < kTouches; ++i) {
+    const std::optional<Proximity> before = fit.touch;
+    const double cost_before = fit.cost;
+    fit.touch = touch_of(problem, fit.state);
+    if (fit.touch && !fit.state.law) {
+      fit.state.law = law_of(problem, fit.state, fit.touch);
+      fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
+      descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
+    }
+    fit.state.law = law_of(problem, fit.state, fit.touch);
+    fit.usable = descend(problem, fit.touch, kIterations, fit.state, fit.cost);
+    if (!fit.usable || !fit.touch || (before && std::abs(fit.cost - cost_before) < 1e-6 * (1.0 + fit.cost))) break;
+  }
+  if (fit.usable) fit.terms = term_sizes(problem, fit);
+  return fit;
+}
+
+void add_covariance(const Problem& problem, Fit& fit) {
+  Problem normal = problem.restitution ? problem : without_bounds(problem);  // a bound that is reached says nothing of the noise
+  if (problem.noise_power > 2.0) normal.pixel_sigma = equivalent_deviation(pixels_off(problem, fit.state), problem.noise_power);
+  normal.noise_power = 2.0;
+  Setup setup(normal, fit.state, fit.touch);
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::DENSE_SVD;
+  options.null_space_rank = -1;
+  options.min_reciprocal_condition_number = 1e-14;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  const double* block = setup.unknowns();
+  fit.covariance = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  const std::vector<const double*> blocks = {block};
+  if (!covariance.Compute(blocks, &setup.ceres)) return;
+  Eigen::Matrix<double, kUnknowns, kUnknowns, Eigen::RowMajor> all;
+  if (covariance.GetCovarianceBlock(block, block, all.data())) fit.covariance = all;
+}
+
+Estimate restitution_of(const Problem& problem, const Fit& fit) {
+  return estimate(restitution<Wide>(problem, fit.state, wide_values_of(problem, fit.state)), fit.covariance);
+}
+
+Estimate mass_ratio_of(const Problem& problem, const Fit& fit) { return estimate(wide_values_of(problem, fit.state).mass_ratio, fit.covariance); }
+
+Estimate energy_kept_of(const Problem& problem, const Fit& fit) {
+  const StateT<Wide> s = wide_values_of(problem, fit.state);
+  return estimate(kinetic_energy<Wide>(problem, s, true) / kinetic_energy<Wide>(problem, s, false), fit.covariance);
+}
+
+}  // namespace unseen::collision

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cuboids/surfaces/supports.h"
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kDown = 0.9, kForward = 0.43;  // of a camera held upright, looking a little down: its usual up is (0, −0.9, −0.43)
+const Vec3 kUsualUp = Vec3(0.0, -kDown, -kForward).normalized();
+constexpr std::size_t kMostFaces = 40;
+constexpr double kLargeShare = 0.2;   // of the area of the largest plane
+constexpr double kFewestPoints = 60;  // of a piece
+constexpr int kFewestLinks = 8;       // between a piece and what it stands on
+constexpr double kOff = 6.0;          // σ from every plane
+constexpr double kCarriesMost = 0.6;  // of the points of all pieces
+constexpr double kClearlyMore = 1.5;  // evidence that it takes to turn a picture
+constexpr double kFills = 0.5, kHardlyAny = 0.05;  // of a picture
+const double kTurned = radians(60.0), kSteep = std::sin(radians(30.0)), kStraight = std::cos(radians(20.0));
+
+/// Connected points beside the large planes, and how it is linked to each of them.
+struct Piece {
+  double points = 0;       ///< those that are clearly off every plane
+  std::vector<int> links;  ///< one number a plane
+};
+
+std::vector<int> largest_faces(const Scan& scan) {
+  std::vector<int> large(scan.faces.faces.size());
+  for (std::size_t f = 0; f < large.size(); ++f) large[f] = static_cast<int>(f);
+  std::stable_sort(large.begin(), large.end(),
+                   [&](int a, int b) { return scan.faces.faces[a].area > scan.faces.faces[b].area; });
+  if (large.size() > kMostFaces) large.resize(kMostFaces);
+  return large;
+}
+
+/// The direction that most large faces agree is up in a picture that was taken upright or looking down.
+Vec3 usual_up(const Scan& scan, const std::vector<int>& large) {
+  Vec3 best = Vec3::Zero();
+  double best_score = 0;
+  for (const int c : large) {
+    const Face& candidate = scan.faces.faces[c];
+    const Vec3& up = candidate.plane.normal;
+    const double usual = scan.is_image ? std::max(up.dot(kUsualUp), 0.0) : 0.5 + 0.5 * up.z();
+    double agree = 0;
+    for (const int f : large) {
+      const Face& face = scan.faces.faces[f];
+      const double cosine = std::abs(face.plane.normal.dot(up));
+      agree += cosine > kHorizontal ? face.area : cosine < kVertical ? 0.3 * face.area : 0.0;
+    }
+    const double score = std::pow(usual, 4) * (agree + candidate.area);
+    if (score > best_score) best_score = score, best = up;
+  }
+  return best;
+}
+
+/// The large planes, and all that face `up`.
+std::vector<Level> large_or_facing(std::vector<Level> levels, const Vec3& up) {
+  double most = 0;
+  for (const Level& level : levels) most = std::max(most, level.area);
+  std::erase_if(levels, [&](const Level& level) {
+    return level.area < kLargeShare * most && level.plane.normal.dot(up) < kHorizontal;
+  });
+  return levels;
+}
+
+/// One piece, from a point of it; marks its points.
+Piece piece_from(const Scan& scan, const std::vector<Level>& levels, const std::vector<int>& level_of, int first, std::vector<char>& done) {
+  Piece piece{0, std::vector<int>(levels.size(), 0)};
+  std::vector<int> queue{first};
+  done[first] = 1;
+  for (std::size_t at = 0; at < queue.size(); ++at) {
+    const int i = queue[at];
+    piece.points += std::all_of(levels.begin(), levels.end(), [&](const Level& level) {
+      return std::abs(level.plane.signed_distance(scan.points[i])) > kOff * scan.graph.sigma[i];
+    });
+    for (const int j : scan.graph.neighbours(i)) {
+      if (level_of[j] >= 0) ++piece.links[level_of[j]];
+      if (level_of[j] < 0 && !done[j]) done[j] = 1, queue.push_back(j);
+    }
+  }
+  return piece;
+}
+
+/// What is beside the planes and is linked to one of them.
+std::vector<Piece> find_pieces(const Scan& scan, const std::vector<Level>& levels) {
+  std::vector<int> level_of(scan.points.size(), -1);
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    for (const int i : points_of(scan, levels[k].faces)) level_of[i] = static_cast<int>(k);
+  std::vector<Piece> pieces;
+  std::vector<char> done(scan.points.size(), 0);
+  for (int i = 0; i < static_cast<int>(done.size()); ++i) {
+    if (done[i] || level_of[i] >= 0) continue;
+    Piece piece = piece_from(scan, levels, level_of, i, done);
+    const bool linked = std::any_of(piece.links.begin(), piece.links.end(), [](int n) { return n >= kFewestLinks; });
+    if (linked && piece.points >= kFewestPoints) pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+/// Share of the pieces, by points, that start from a plane which faces `up`. All that stands does so from its ground;
+/// from a wall only what was put against it. None if there are no pieces.
+std::optional<double> carried_share(const Scan& scan, const std::vector<Level>& planes, const Vec3& up) {
+  const std::vector<Level> levels = large_or_facing(planes, up);
+  double all = 0, carried = 0;
+  for (const Piece& piece : find_pieces(scan, levels)) {
+    int links = 0;
+    for (std::size_t k = 0; k < levels.size(); ++k)
+      if (levels[k].plane.normal.dot(up) > kHorizontal) links += piece.links[k];
+    all += piece.points;
+    if (links >= kFewestLinks) carried += piece.points;
+  }
+  return all > 0.0 ? std::optional(carried / all) : std::nullopt;
+}
+
+/// m²: what faces `up`, the less the more the camera would look at a wall as nobody looks at a floor, whatever it is turned
+/// by about its axis, and the less stands on it.
+double evidence(const Scan& scan, const std::vector<int>& large, const Vec3& up, double share) {
+  double area = 0;
+  for (const int f : large)
+    if (scan.faces.faces[f].plane.normal.dot(up) > kHorizontal) area += scan.faces.faces[f].area;
+  const double pitch = (kDown * up.head<2>().norm() - kForward * up.z()) / std::hypot(kDown, kForward);
+  return std::pow(std::max(pitch, 0.0) * share, 4) * area;
+}
+
+double points_on(const Scan& scan, const Level& level) {
+  double count = 0;
+  for (const int f : level.faces) count += static_cast<double>(scan.faces.faces[f].points.size());
+  return count;
+}
+
+/// Whether a camera looks straight at a plane that fills most of its picture, as at a floor from above, and hardly any of it faces `usual`.
+bool fills_the_picture(const Scan& scan, const std::vector<Level>& planes, const Level& level, const Vec3& usual) {
+  const double all = static_cast<double>(scan.points.size());
+  if (level.plane.normal.z() > -kStraight || points_on(scan, level) < kFills * all) return false;
+  double facing = 0;
+  for (const Level& other : planes)
+    if (other.plane.normal.dot(usual) > kHorizontal) facing += points_on(scan, other);
+  return facing < kHardlyAny * all;
+}
+
+}  // namespace
+
+bool is_turned(const Vec3& up) {
+  return up.head<2>().norm() > kSteep && std::abs(std::atan2(up.x(), -up.y())) > kTurned;
+}
+
+FoundUp find_up(const Scan& scan) {
+  const std::vector<int> large = largest_faces(scan);
+  FoundUp found{usual_up(scan, large)};
+  if (!scan.is_image) return found;
+  const Vec3 usual = found.up;
+  const std::vector<Level> planes = coplanar(scan, large);
+  if (usual.isZero()) {  // no plane faces up in a picture that is upright
+    double most = 0;
+    for (const Level& level : planes)
+      if (const double told = evidence(scan, large, level.plane.normal, 1.0); told > most) most = told, found.up = level.plane.normal;
+    return found;
+  }
+  const double usual_evidence = evidence(scan, large, usual, carried_share(scan, planes, usual).value_or(0.0));
+  double most = usual_evidence;
+  for (const Level& level : large_or_facing(planes, usual)) {
+    const Vec3& up = level.plane.normal;
+    const bool straight = fills_the_picture(scan, planes, level, usual);
+    if (!(is_turned(up) || straight) || up.dot(usual) > kHorizontal || evidence(scan, large, up, 1.0) <= most) continue;
+    const double share = carried_share(scan, planes, up).value_or(straight ? 1.0 : 0.0), told = evidence(scan, large, up, share);
+    if (share < kCarriesMost || told <= most) continue;
+    most = told;
+    found.ambiguous = told < kClearlyMore * usual_evidence;
+    found.up = found.ambiguous ? usual : up;
+  }
+  return found;
+}
+
+}  // namespace unseen::cuboids

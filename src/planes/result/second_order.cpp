@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planes/result/describe.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kStepTolerance = 0.25;  // of the scale: offsets this close are equal
+constexpr std::size_t kMostPerDirection = 400;
+constexpr double kByChance = 0.05;  // rows as long that a direction may be expected to have by chance
+
+/// Extent of a plane's outline along two axes of its plane.
+struct Extent {
+  double low_u, high_u, low_v, high_v;
+};
+
+std::vector<Vec3> corners_of(const ArrangedPlane& p) {
+  if (p.segment) return {(*p.segment)[0], (*p.segment)[1]};
+  return p.polygon.empty() ? std::vector<Vec3>{} : p.polygon.front();
+}
+
+Extent extent_of(const ArrangedPlane& p, const Vec3& u, const Vec3& v) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Extent e{kInf, -kInf, kInf, -kInf};
+  for (const Vec3& c : corners_of(p)) {
+    e.low_u = std::min(e.low_u, u.dot(c));
+    e.high_u = std::max(e.high_u, u.dot(c));
+    e.low_v = std::min(e.low_v, v.dot(c));
+    e.high_v = std::max(e.high_v, v.dot(c));
+  }
+  return e;
+}
+
+bool overlap(const Extent& a, const Extent& b, bool two_dimensional) {
+  return a.low_u < b.high_u && b.low_u < a.high_u && (two_dimensional || (a.low_v < b.high_v && b.low_v < a.high_v));
+}
+
+/// Planes at equal steps.
+Spacing spacing_of(const std::vector<int>& planes, const Arrangement& result) {
+  const auto offset = [&](std::size_t i) { return result.planes[planes[i]].plane.offset; };
+  const std::size_t last = planes.size() - 1;
+  Spacing s;
+  s.planes = planes;
+  s.step = (offset(last) - offset(0)) / static_cast<double>(last);
+  double sum = 0;
+  for (std::size_t i = 0; i <= last; ++i) sum += std::pow(offset(i) - offset(0) - s.step * static_cast<double>(i), 2);
+  s.rms = std::sqrt(sum / static_cast<double>(planes.size()));
+  return s;
+}
+
+/// Runs of at least three planes, each a step farther than the one before.
+void find_steps(const std::vector<int>& by_offset, double tolerance, Arrangement& result) {
+  const auto offset = [&](std::size_t i) { return result.planes[by_offset[i]].plane.offset; };
+  for (std::size_t first = 0; first + 2 < by_offset.size();) {
+    std::size_t last = first + 1;
+    const double step = offset(last) - offset(first);
+    while (step > 4 * tolerance && last + 1 < by_offset.size() &&
+           std::abs(offset(last + 1) - offset(last) - step) < tolerance)
+      ++last;
+    if (last < first + 2) {
+      ++first;
+      continue;
+    }
+    result.spacing.push_back(spacing_of({by_offset.begin() + first, by_offset.begin() + last + 1}, result));
+    first = last;
+  }
+}
+
+/// Rows of planes at equal steps with others between them, as the sides of windows: the longest first, each plane in one, and none of which so many may be
+/// expected by chance.
+void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement& result) {
+  const std::size_t count = by_offset.size();
+  if (count < 4) return;
+  std::vector<double> offsets;
+  for (const int p : by_offset) offsets.push_back(result.planes[p].plane.offset);
+  const auto by_chance = [&](const std::vector<std::size_t>& row) {
+    const double between = static_cast<double>(row.back() - row.front() + 1) / (offsets[row.back()] - offsets[row.front()]);
+    const double hit = std::min(1.0, 2.0 * tolerance * between);  // that a place has a plane
+    return 0.5 * static_cast<double>(count * count) * std::pow(hit, static_cast<double>(row.size()) - 2.0);
+  };
+  std::vector<char> taken(count, 0);
+  const auto row_from = [&](std::size_t first, std::size_t second) {
+    std::vector<std::size_t> row = {first, second};
+    const double step = offsets[second] - offsets[first];
+    for (;;) {
+      const double next = offsets[row.back()] + step;
+      double least = tolerance;
+      std::size_t nearest = count;
+      for (std::size_t i = std::lower_bound(offsets.begin(), offsets.end(), next - tolerance) - offsets.begin(); i < count && offsets[i] < next + tolerance; ++i)
+        if (const double off = std::abs(offsets[i] - next); !taken[i] && off < least) least = off, nearest = i;
+      if (nearest == count) return row;
+      row.push_back(nearest);
+    }
+  };
+  for (;;) {
+    std::vector<std::size_t> best;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t k = i + 1; k < count && !taken[i]; ++k)
+        if (!taken[k] && offsets[k] - offsets[i] > 4 * tolerance)
+          if (std::vector<std::size_t> row = row_from(i, k); row.size() > best.size()) best = std::move(row);
+    if (best.size() < 4 || by_chance(best) > kByChance) return;
+    std::vector<int> planes;
+    for (const std::size_t i : best) planes.push_back(by_offset[i]), taken[i] = 1;
+    const auto holds = [](const std::vector<int>& all, const std::vector<int>& some) {
+      return std::all_of(some.begin(), some.end(), [&](int plane) { return std::find(all.begin(), all.end(), plane) != all.end(); });
+    };
+    if (std::any_of(result.spacing.begin(), result.spacing.end(), [&](const Spacing& s) { return holds(s.planes, planes); })) continue;
+    std::erase_if(result.spacing, [&](const Spacing& s) { return holds(planes, s.planes); });
+    result.spacing.push_back(spacing_of(planes, result));
+  }
+}
+
+/// Planes of one direction whose longer sides are equal.
+void find_equal_lengths(const std::vector<int>& planes, const Vec3& u, const Vec3& v, double tolerance,
+                        Arrangement& result) {
+  std::vector<std::pair<double, int>> lengths;
+  for (const int p : planes) {
+    const Extent e = extent_of(result.planes[p], u, v);
+    const double length = std::max(e.high_u - e.low_u, e.high_v - e.low_v);
+    if (length > 4 * tolerance) lengths.emplace_back(length, p);
+  }
+  std::sort(lengths.begin(), lengths.end());
+  for (std::size_t first = 0; first < lengths.size();) {
+    std::size_t end = first + 1;
+    while (end < lengths.size() && lengths[end].first - lengths[first].first < 2 * tolerance) ++end;
+    if (end - first >= 3) {
+      EqualLength e;
+      double sum = 0, squares = 0;
+      for (std::size_t i = first; i < end; ++i) {
+        e.planes.push_back(lengths[i].second);
+        sum += lengths[i].first;
+      }
+      e.length = sum / static_cast<double>(end - first);
+      for (std::size_t i = first; i < end; ++i) squares += std::pow(lengths[i].first - e.length, 2);
+      e.rms = std::sqrt(squares / static_cast<double>(end - first));
+      std::sort(e.planes.begin(), e.planes.end());
+      result.equal_lengths.push_back(std::move(e));
+    }
+    first = end;
+  }
+}
+
+}  // namespace
+
+void find_second_order(Arrangement& result) {
+  std::vector<std::vector<int>> of_direction(result.directions.size());
+  for (std::size_t p = 0; p < result.planes.size(); ++p) of_direction[result.planes[p].direction].push_back(static_cast<int>(p));
+  const double tolerance = kStepTolerance * result.scale;
+  const std::optional<int> flat = flat_axis(result);
+  for (std::size_t d = 0; d < of_direction.size(); ++d) {
+    std::vector<int> planes = of_direction[d];
+    if (planes.size() < 2) continue;
+    if (planes.size() > kMostPerDirection) planes.resize(kMostPerDirection);  // the largest
+    std::stable_sort(planes.begin(), planes.end(), [&](int a, int b) {
+      return result.planes[a].plane.offset < result.planes[b].plane.offset;
+    });
+    const Vec3& n = result.directions[d].normal;
+    const Vec3 u = flat ? Vec3(n.cross(Vec3::Unit(*flat)).normalized()) : any_orthogonal(n);
+    const Vec3 v = n.cross(u);
+    std::vector<int> levels;  // one plane an offset, the lowest id
+    for (std::size_t i = 0; i < planes.size();) {
+      std::vector<int> group = {planes[i]};
+      const double offset = result.planes[planes[i]].plane.offset;
+      for (++i; i < planes.size() && result.planes[planes[i]].plane.offset - offset < 1e-9; ++i) group.push_back(planes[i]);
+      std::sort(group.begin(), group.end());
+      levels.push_back(group.front());
+      if (group.size() > 1) result.coplanar.push_back(std::move(group));
+    }
+    find_steps(levels, tolerance, result);
+    find_rows(levels, tolerance, result);
+    find_equal_lengths(planes, u, v, tolerance, result);
+    std::vector<Extent> extents;
+    for (const int p : planes) extents.push_back(extent_of(result.planes[p], u, v));
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      for (std::size_t k = i + 1; k < planes.size(); ++k) {
+        const double distance = result.planes[planes[k]].plane.offset - result.planes[planes[i]].plane.offset;
+        if (distance < 1e-9 || !overlap(extents[i], extents[k], result.two_dimensional)) continue;
+        result.distances.push_back({std::min(planes[i], planes[k]), std::max(planes[i], planes[k]), distance});
+        break;  // the next one in line hides the others
+      }
+  }
+}
+
+}  // namespace unseen::planes

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/linear.h"
+#include "planes/result/describe.h"
+#include "unseen/core/quantile.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
+constexpr double kLevel = 1.5 * kPi / 180.0;  // floors fall a little, walls lean
+constexpr double kLarge = 0.2;    // of the largest level plane's area: less is a table, or a step
+constexpr double kAtEnd = 0.15;   // of the scene's height, from its lowest or highest point
+constexpr double kSlab = 0.25;    // of the room's height: how thick what lies between two storeys is, at most
+constexpr double kOverlap = 0.5;  // of the smaller one's extent, for one to lie above the other
+constexpr double kWall = 0.5;     // of the room's height
+constexpr double kRoomy = 0.04;   // of the largest level plane's width: where all is lower, there is no ceiling
+constexpr double kNarrow = 0.1;   // of the room's height: what is narrower in the mean is a post, or a seam
+constexpr double kPlumb = 0.5 * kPi / 180.0;  // a wall that leans by more does not speak for a vertical
+constexpr double kSpeak = 0.5;    // of the most area of walls that speak for one: as much speaks for another as well
+constexpr std::size_t kMostUps = 20;  // directions with the most area that may be the vertical
+
+/// What a plane's outline reaches, along two level axes and upward.
+struct Bounds {
+  Vec3 low = Vec3::Constant(kNowhere), high = Vec3::Constant(-kNowhere);
+  double height() const { return 0.5 * (low.z() + high.z()); }
+  double area() const { return (high.x() - low.x()) * (high.y() - low.y()); }
+};
+
+/// What speaks for a direction as the vertical, m²: walls along it that are turned against each other, and level planes.
+struct Votes {
+  double plumb = 0, level = 0;
+};
+
+Votes votes_for(const Vec3& up, const Arrangement& result) {
+  const Vec3 u = any_orthogonal(up), v = up.cross(u);
+  Eigen::Matrix2d walls = Eigen::Matrix2d::Zero();
+  Votes votes;
+  for (const ArrangedPlane& p : result.planes) {
+    const Vec3& n = p.plane.normal;
+    const Eigen::Vector2d across(n.dot(u), n.dot(v));
+    if (line_angle(n, up) > kPi / 2 - kPlumb) walls += p.area * across * across.transpose();
+    if (line_angle(n, up) < kLevel) votes.level += p.area;
+  }
+  votes.plumb = symmetric_eigen(walls).values[0];
+  return votes;
+}
+
+/// The direction of a plane within 15° of +z, or +z itself, that walls speak for; between those that walls do not part the one with most level area.
+/// Ground that falls has two walls of each house along its normal, but not those across.
+Vec3 up_of(const Arrangement& result) {
+  std::map<int, double> area;
+  for (const ArrangedPlane& p : result.planes)
+    if (line_angle(p.plane.normal, Vec3::UnitZ()) < kPi / 12) area[p.direction] += p.area;
+  std::vector<std::pair<int, double>> largest(area.begin(), area.end());
+  std::stable_sort(largest.begin(), largest.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  if (largest.size() > kMostUps) largest.resize(kMostUps);
+  std::vector<Vec3> ups;
+  for (const auto& [direction, a] : largest) {
+    const Vec3& n = result.directions[direction].normal;
+    ups.push_back(n.z() < 0 ? Vec3(-n) : n);
+  }
+  ups.push_back(Vec3::UnitZ());
+  std::vector<Votes> votes;
+  double plumb = 0;
+  for (const Vec3& up : ups) {
+    votes.push_back(votes_for(up, result));
+    plumb = std::max(plumb, votes.back().plumb);
+  }
+  std::size_t best = ups.size();
+  for (std::size_t i = 0; i < ups.size(); ++i)
+    if (votes[i].plumb >= kSpeak * plumb && (best == ups.size() || votes[i].level > (1.0 + 1e-9) * votes[best].level)) best = i;
+  return ups[best];
+}
+
+Bounds bounds_of(const ArrangedPlane& p, const Mat3& axes) {
+  Bounds e;
+  if (p.polygon.empty()) return e;
+  for (const Vec3& c : p.polygon.front()) {
+    e.low = e.low.cwiseMin(axes.transpose() * c);
+    e.high = e.high.cwiseMax(axes.transpose() * c);
+  }
+  return e;
+}
+
+bool lie_above_each_other(const Bounds& a, const Bounds& b) {
+  const Vec3 common = a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low);
+  return common.x() > 0 && common.y() > 0 && common.x() * common.y() > kOverlap * std::min(a.area(), b.area());
+}
+
+/// How far it is to the next large level plane above and below; infinite without one.
+struct Gaps {
+  double above = kNowhere, below = kNowhere;
+};
+
+Gaps gaps_at(std::size_t level, const std::vector<std::size_t>& levels, const std::vector<Bounds>& bounds) {
+  Gaps gaps;
+  for (const std::size_t other : levels) {
+    if (other == level || !lie_above_each_other(bounds[level], bounds[other])) continue;
+    const double higher = bounds[other].height() - bounds[level].height();
+    double& gap = higher > 0 ? gaps.above : gaps.below;
+    gap = std::min(gap, std::abs(higher));
+  }
+  return gaps;
+}
+
+/// Below a floor is nothing, or the ceiling of the storey beneath; above a ceiling nothing, or the next floor.
+std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top) {
+  const bool floor = std::isinf(gaps.below) ? from_bottom < kAtEnd : gaps.below < kSlab * gaps.above && std::isfinite(gaps.above);
+  const bool ceiling = std::isinf(gaps.above) ? from_top < kAtEnd : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
+  if (floor && !(ceiling && from_top < from_bottom)) return "floor";
+  return ceiling ? "ceiling" : "horizontal";
+}
+
+}  // namespace
+
+void tag_planes(Arrangement& result) {
+  if (result.two_dimensional) return;
+  const Vec3 up = up_of(result), u = any_orthogonal(up);
+  Mat3 axes;
+  axes << u, up.cross(u), up;
+  std::vector<Bounds> bounds;
+  double low = kNowhere, high = -kNowhere, largest = 0;
+  for (const ArrangedPlane& p : result.planes) {
+    bounds.push_back(bounds_of(p, axes));
+    low = std::min(low, bounds.back().low.z());
+    high = std::max(high, bounds.back().high.z());
+    if (line_angle(p.plane.normal, up) < kLevel) largest = std::max(largest, p.area);
+  }
+  std::vector<std::size_t> levels;
+  for (std::size_t i = 0; i < result.planes.size(); ++i)
+    if (line_angle(result.planes[i].plane.normal, up) < kLevel && result.planes[i].area > kLarge * largest) levels.push_back(i);
+
+  std::vector<double> rooms;  // heights
+  for (const std::size_t i : levels) {
+    const Gaps gaps = gaps_at(i, levels, bounds);
+    const double span = std::max(high - low, 1e-300);
+    const bool roomy = span > kRoomy * std::sqrt(largest);
+    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere);
+    if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
+  }
+  const double room = rooms.empty() ? high - low : median(std::move(rooms));
+  for (std::size_t i = 0; i < result.planes.size(); ++i) {
+    ArrangedPlane& p = result.planes[i];
+    if (!p.tag.empty()) continue;
+    const double angle = line_angle(p.plane.normal, up);
+    if (angle < kLevel) p.tag = "horizontal";
+    else if (angle < kPi / 2 - kLevel) p.tag = "sloped";
+    else {
+      const double tall = bounds[i].high.z() - bounds[i].low.z();
+      p.tag = tall > kWall * room && p.area > kNarrow * room * tall ? "wall" : "vertical";
+    }
+  }
+}
+
+}  // namespace unseen::planes

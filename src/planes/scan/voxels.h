@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/large_pages.h"
+#include "planes/scan/moments.h"
+#include "unseen/core/context.h"
+#include "unseen/core/point_cloud.h"
+
+namespace unseen::planes {
+
+/// What is near enough to be looked at; by default all that is finite. Not a number is in no box.
+struct Box {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::lowest());
+  Vec3 high = Vec3::Constant(std::numeric_limits<double>::max());
+  bool contains(const Vec3& p) const { return (p.array() >= low.array()).all() && (p.array() <= high.array()).all(); }
+};
+
+using VoxelKey = std::array<std::int32_t, 3>;
+
+/// Sums over the points of one voxel, in integers (positions relative to the voxel in steps of 2⁻¹⁸ of its
+/// edge), so that they do not depend on the order of the points nor on how a cloud was cut into tiles.
+struct VoxelSums {
+  std::int64_t count = 0;
+  std::array<std::int64_t, 3> first{};   ///< Σ q
+  std::array<std::int64_t, 6> second{};  ///< Σ q qᵀ: xx, xy, xz, yy, yz, zz
+  std::array<std::int64_t, 6> normal{};  ///< Σ m mᵀ of unit normals m in steps of 2⁻¹⁴, where given
+  VoxelSums& operator+=(const VoxelSums& o);
+};
+
+/// A growing list of distinct keys, found again in constant time (open addressing).
+class KeyTable {
+ public:
+  const LargeVector<VoxelKey>& keys() const { return keys_; }
+  /// Index of a key, or −1.
+  int find(const VoxelKey& key) const;
+  /// Index of a key, which is appended if it is new.
+  std::size_t insert(const VoxelKey& key);
+  void reserve(std::size_t keys) { keys_.reserve(keys); }
+
+ private:
+  std::size_t slot(const VoxelKey& key) const;
+  void grow();
+
+  LargeVector<VoxelKey> keys_;
+  LargeVector<std::uint32_t> slots_;  ///< index + 1 into keys_, 0 = free; at most half are taken
+};
+
+/// Gathers the points of a box into voxels. Filled tile by tile; two builders of one grid can be joined exactly.
+class VoxelBuilder {
+ public:
+  explicit VoxelBuilder(double edge, const Box& within = {}) : edge_(edge), within_(within) {}
+
+  /// Adds every point of a block that is in the box, except those for which skip[first + i] is set (empty =
+  /// none).
+  /// Throws InputError if a coordinate is too large for the grid (2³¹ voxels).
+  void add(const PointCloud& block, const std::vector<bool>& skip = {}, std::size_t first = 0);
+  void join(const VoxelBuilder& other);
+  /// Makes room for so many voxels at once: what is not filled costs nothing, but growing step by step does.
+  void reserve(std::size_t voxels);
+
+  double edge() const { return edge_; }
+  const Box& within() const { return within_; }
+  std::size_t outside() const { return outside_; }  ///< finite points that are not in the box
+  const LargeVector<VoxelKey>& keys() const { return table_.keys(); }
+  const LargeVector<VoxelSums>& sums() const { return sums_; }
+
+ private:
+  VoxelSums& sums_of(const VoxelKey& key);
+
+  double edge_;
+  Box within_;
+  std::size_t outside_ = 0;
+  KeyTable table_;
+  LargeVector<VoxelSums> sums_;
+};
+
+/// Some of a grid's voxels, as bits of its blocks: where few are left, most blocks are passed over at a glance.
+class VoxelSet {
+ private:
+  friend class VoxelGrid;
+  std::vector<std::uint64_t> bits_;
+};
+
+/// Occupied voxels in a fixed order (by blocks of 4³), found by key in constant time.
+class VoxelGrid {
+ public:
+  VoxelGrid() = default;
+  explicit VoxelGrid(const VoxelBuilder& builder, const Context& context = Context());
+
+  std::size_t size() const { return keys.size(); }
+  VoxelKey key_of(const Vec3& p) const;
+  Vec3 center_of(const VoxelKey& key) const;
+  /// Index of the voxel with this key, or −1 if it is empty.
+  int find(const VoxelKey& key) const;
+  static constexpr int kFirstReach = 4, kMostReach = 16;
+  /// Calls f(index) for each occupied voxel at most `reach` voxels away from `voxel` along every axis, itself
+  /// included; blocks nearer to it come first. Up to kFirstReach, or farther where find_farther() was asked for it.
+  template <class F>
+  void for_neighbours(std::size_t voxel, int reach, F&& f) const;
+  /// The same for those in a set, from which f may take the voxel it is called with.
+  template <class F>
+  void for_neighbours(std::size_t voxel, int reach, const VoxelSet& within, F&& f) const;
+
+  /// The same, passing over the blocks for which skip(block) is true.
+  template <class Skip, class F>
+  void for_neighbours_unless(std::size_t voxel, int reach, Skip&& skip, F&& f) const;
+  static constexpr int kNone = -1, kSeveral = -2;
+  /// Of each block the label that its voxels have, apart from those with kNone.
+  std::vector<int> labels_of_blocks(const std::vector<int>& label_of_voxel) const;
+
+  /// Lets for_neighbours() look reach[voxel] (≤ kMostReach) voxels away from each voxel.
+  void find_farther(const std::vector<int>& reach, const Context& context);
+
+  VoxelSet empty_set() const;
+  void insert(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] |= bit_of(keys[voxel]); }
+  void erase(VoxelSet& set, std::size_t voxel) const { set.bits_[block_of_[voxel]] &= ~bit_of(keys[voxel]); }
+  bool contains(const VoxelSet& set, std::size_t voxel) const {
+    return (set.bits_[block_of_[voxel]] & bit_of(keys[voxel])) != 0;
+  }
+  /// The same points, without their normals, in voxels of twice the edge; `parent` gets each voxel's index in the coarser grid.
+  VoxelGrid coarser(std::vector<int>& parent, const Context& context = Context()) const;
+
+  double edge = 0;
+  double tolerance = 0;  ///< m, how far a plane's points may lie from it; twice the edge unless something else is set
+  double rounding = 0;   ///< m, the steps that coordinates come in; 0 = none that matter
+  Box within;  ///< what lies outside is in no voxel
+  LargeVector<VoxelKey> keys;
+  LargeVector<Moments> moments;
+  LargeVector<Eigen::Matrix3f> normals;  ///< Σ m mᵀ of input normals; empty if the input has none
+
+ private:
+  static constexpr int kRings = kMostReach / 4;  ///< how many blocks away neighbours are linked, at most
+  static int rings_within(int reach) { return std::min((reach + 3) / 4, kRings); }
+  /// [reach][axis][place in its block]: of the block that lies 0…2·kRings blocks behind the first linked one along
+  /// an axis, the voxels that are within reach of one at that place, as bits of its mask.
+  using Slices = std::array<std::array<std::array<std::array<std::uint64_t, 2 * kRings + 1>, 4>, 3>, kMostReach + 1>;
+  static const Slices kSlices;
+  struct Block {
+    std::uint64_t mask = 0;   ///< which of its 4³ voxels are occupied, x slowest
+    std::uint32_t first = 0;  ///< index of its first voxel
+    std::int32_t rings = 0;   ///< so far it is linked
+    std::array<std::uint32_t, kRings + 2> ring{};  ///< [ring[r]…ring[r+1]) of its run's links: occupied blocks r blocks away
+  };
+  /// Lays out the voxels with these keys (some may be equal) and returns the index of each.
+  std::vector<int> place(const LargeVector<VoxelKey>& unordered, const Context& context);
+  void link_blocks(const std::vector<int>& rings_of_block, const Context& context);
+  /// A voxel's place in the mask of its block.
+  static std::uint64_t bit_of(const VoxelKey& k) {
+    return std::uint64_t{1} << (((k[0] & 3) << 4) | ((k[1] & 3) << 2) | (k[2] & 3));
+  }
+  template <class Bits, class F>
+  void visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) const;
+
+  KeyTable block_table_;
+  LargeVector<Block> blocks_;              ///< parallel to block_table_.keys()
+  static constexpr std::size_t kRun = 4096;         ///< blocks that are linked together
+  std::vector<LargeVector<std::uint32_t>> linked_;  ///< of each run, indices of blocks
+  LargeVector<std::uint32_t> block_of_;    ///< of each voxel
+};
+
+/// Reads the source once and sums its points within a box into voxels of the given edge (m).
+VoxelBuilder summarise(PointSource& source, double edge, const Box& within, const std::vector<bool>& duplicate,
+                       Context& context);
+
+/// Bits set; without the instruction, which the oldest 64-bit machines lack.
+inline int count_bits(std::uint64_t x) {
+  x -= (x >> 1) & 0x5555555555555555u;
+  x = (x & 0x3333333333333333u) + ((x >> 2) & 0x3333333333333333u);
+  x = (x + (x >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+  return static_cast<int>((x * 0x0101010101010101u) >> 56);
+}
+
+template <class Bits, class F>
+void VoxelGrid::visit_blocks(std::size_t voxel, int reach, Bits&& bits, F&& f) const {
+  const VoxelKey& key = keys[voxel];
+  const auto& slices = kSlices[std::min(reach, kMostReach)];
+  const auto &x = slices[0][key[0] & 3], &y = slices[1][key[1] & 3], &z = slices[2][key[2] & 3];
+  const VoxelKey* const block_key = block_table_.keys().data();
+  const VoxelKey home_key = block_key[block_of_[voxel]];
+  const Block& home = blocks_[block_of_[voxel]];
+  assert(rings_within(reach) <= home.rings);
+  const std::uint32_t* const links = linked_[block_of_[voxel] / kRun].data();
+  const std::uint32_t end = home.ring[rings_within(reach) + 1];
+  for (std::uint32_t l = home.ring[0]; l < end; ++l) {
+    const std::uint32_t b = links[l];
+    const VoxelKey& k = block_key[b];
+    std::uint64_t found = bits(b) & x[k[0] - home_key[0] + kRings] & y[k[1] - home_key[1] + kRings] & z[k[2] - home_key[2] + kRings];
+    for (; found != 0; found &= found - 1)
+      f(static_cast<int>(blocks_[b].first + count_bits(blocks_[b].mask & ((found & -found) - 1))));
+  }
+}
+
+template <class F>
+void VoxelGrid::for_neighbours(std::size_t voxel, int reach, F&& f) const {
+  visit_blocks(voxel, reach, [&](std::uint32_t b) { return blocks_[b].mask; }, f);
+}
+
+template <class F>
+void VoxelGrid::for_neighbours(std::size_t voxel, int reach, const VoxelSet& within, F&& f) const {
+  visit_blocks(voxel, reach, [&](std::uint32_t b) { return within.bits_[b]; }, f);
+}
+
+template <class Skip, class F>
+void VoxelGrid::for_neighbours_unless(std::size_t voxel, int reach, Skip&& skip, F&& f) const {
+  visit_blocks(voxel, reach, [&](std::uint32_t b) { return skip(b) ? 0 : blocks_[b].mask; }, f);
+}
+
+}  // namespace unseen::planes

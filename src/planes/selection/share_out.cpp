@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include <algorithm>
+
+#include "planes/selection/select.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kIndistinct = 4.0;  // χ²: two standard errors
+constexpr double kWorse = 9.0;        // χ² by which an orientation may suit a patch less than another one that is nearly the same
+constexpr double kDominant = 1.0 / 3;  // of the area
+
+/// A patch to which a frame offers an orientation.
+struct Offered {
+  std::size_t patch;
+  int local;
+};
+
+/// Patches from whose own orientation the one that a frame offers does not differ.
+std::vector<Offered> suited_by(const OrientationFrame& frame, const Patches& patches, const std::vector<Vec3>& locals, double patch_angle) {
+  std::vector<Offered> suited;
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+    const Patch& patch = patches.patches[j];
+    const Candidate c = best_candidate(patch, frame, locals, patch_angle);
+    if (c.local >= 0 && tilt_chi2(patch, frame.direction(locals[c.local])) < kIndistinct) suited.push_back({j, c.local});
+  }
+  return suited;
+}
+
+/// Adds the proposed frame that suits the most area, if that is much of the whole: the energy may have shared it out among
+/// frames that are needed for something else.
+void add_dominant_frame(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Context& context, Selection& s) {
+  const std::vector<OrientationFrame>& proposed = s.proposed;
+  std::vector<double> areas(proposed.size(), 0.0);
+  parallel_blocks(context, proposed.size(), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      if (proposed[k].closed)
+        for (const Offered& o : suited_by(proposed[k], patches, locals, patch_angle)) areas[k] += patches.patches[o.patch].area;
+  });
+  double all = 0;
+  for (const Patch& patch : patches.patches) all += patch.area;
+  const auto largest = std::max_element(areas.begin(), areas.end());
+  if (largest == areas.end() || *largest < kDominant * all) return;
+  OrientationFrame frame = proposed[largest - areas.begin()];
+  for (int i = 0; i < 3; ++i) {
+    std::vector<std::pair<const Patch*, int>> members;
+    for (const Offered& o : suited_by(frame, patches, locals, patch_angle)) members.emplace_back(&patches.patches[o.patch], o.local);
+    frame = refit_frame(frame, locals, members);
+  }
+  s.frames.push_back(frame);
+}
+
+/// Where several frames offer a patch the orientation that it has, or one from which its own does not differ, the frame that can have
+/// the most area takes it, then the one that can have most of what is left: a room keeps its floor when a table shares it, and walls
+/// stay together. Lines of a drawing have one angle, and many differ little by chance: they are given no other orientation.
+void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Space& space, Selection& s) {
+  std::vector<std::vector<Offered>> offers(s.frames.size());
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+    const Patch& patch = patches.patches[j];
+    const Vec3 has = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
+    for (std::size_t k = 0; k < s.frames.size(); ++k) {
+      const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
+      if (c.local < 0) continue;
+      const Vec3 offered = s.frames[k].direction(locals[c.local]);
+      const double chi2 = tilt_chi2(patch, offered);
+      const bool same = line_angle(offered, has) < kSameOrientation && chi2 < tilt_chi2(patch, has) + kWorse;
+      if (same || (!space.is_2d() && chi2 < kIndistinct)) offers[k].push_back({j, c.local});
+    }
+  }
+  std::vector<char> given(patches.patches.size(), 0);
+  for (std::size_t round = 0; round < s.frames.size(); ++round) {
+    std::size_t largest = 0;
+    double most = 0;
+    for (std::size_t k = 0; k < s.frames.size(); ++k) {
+      double area = 0;
+      for (const Offered& o : offers[k])
+        if (!given[o.patch]) area += patches.patches[o.patch].area;
+      if (area > most) {
+        most = area;
+        largest = k;
+      }
+    }
+    if (most == 0) break;
+    for (const Offered& o : offers[largest]) {
+      if (given[o.patch]) continue;
+      given[o.patch] = 1;
+      s.frame_of_patch[o.patch] = static_cast<int>(largest);
+      s.local_of_patch[o.patch] = o.local;
+    }
+  }
+}
+
+}  // namespace
+
+void share_out(const Patches& patches, const AngleSet& angles, const Space& space, const Options& options, const Context& context, Selection& s) {
+  if (s.local_fits) return;
+  const std::vector<Vec3> locals = local_directions(angles, space);
+  const double patch_angle = radians(options.patch_angle);
+  if (s.frames.size() > 1 && !space.is_2d()) add_dominant_frame(patches, locals, patch_angle, context, s);
+  give_to_largest(patches, locals, patch_angle, space, s);
+}
+
+}  // namespace unseen::planes
