@@ -71,6 +71,28 @@ TEST(PlainColors, PartBricksOfAWall) {
   }
 }
 
+/// White is the floor's grey in another light.
+TEST(PlainColors, PartBoxesThatHaveTheColorOfTheFloor) {
+  const Vec3 carton(0.16, 0.2, 0.18);
+  const Scene row = wall(3, 1, carton);
+  const std::vector<Cuboid> cartons = perceive(painted(row, [&](const Vec3& p, int side) {
+                                        const bool label = side == 5 ? std::abs(p.y() - 1.2) < 0.04 : std::abs(p.z() - 0.09) < 0.03;
+                                        if (std::abs(p.x()) < 0.08) return kWhite;
+                                        return label && std::abs(std::abs(p.x()) - 0.16) < 0.03 ? kWhite : p.x() < 0.0 ? kRed : kBlue;
+                                      })).cuboids;
+  ASSERT_EQ(cartons.size(), 3u);
+  for (const OrientedBox& box : row.boxes) EXPECT_LT(size_error(nearest(cartons, box.center).box, box), 0.012);
+}
+
+/// Where the floor's colour is on a box, the others are not where they seem to be.
+TEST(PlainColors, PartNothingInAPictureThatIsShifted) {
+  const Scene row = wall(2, 1, {0.2, 0.2, 0.2});
+  RgbdFrame frame = painted(row, [](const Vec3& p, int) { return p.x() < 0.0 ? kRed : kBlue; });
+  const int width = frame.camera.width;
+  for (std::size_t i = frame.color.size(); i-- > 0;) frame.color[i] = frame.color[i - std::min<std::size_t>(i, 14 * static_cast<std::size_t>(width) + 14)];
+  EXPECT_EQ(perceive(frame).cuboids.size(), 1u);
+}
+
 /// Labels, bands, sides of other colours: one box all the same.
 TEST(PlainColors, PrintsAreNoBoxes) {
   Scene scene;
@@ -79,11 +101,12 @@ TEST(PlainColors, PrintsAreNoBoxes) {
   const auto label = [](const Vec3& p, int side) { return side != 5 && std::abs(p.x()) < 0.08 && std::abs(p.z() - 0.12) < 0.06 ? kWhite : kRed; };
   const auto band = [](const Vec3& p, int) { return std::abs(p.x()) < 0.03 ? kBlue : kYellow; };
   const auto belt = [](const Vec3& p, int side) { return side != 5 && std::abs(p.z() - 0.12) < 0.02 ? kGreen : kRed; };
+  const auto end = [](const Vec3& p, int) { return p.x() > 0.12 ? kBlue : kYellow; };
   const auto lid = [](const Vec3&, int side) { return side == 5 ? kBlue : kYellow; };
   const auto checks = [](const Vec3& p, int) { return (std::abs(p.x()) < 0.03) == (std::abs(p.z() - 0.12) < 0.04) ? kBlue : kYellow; };
   const auto spots = [](const Vec3& p, int) { return std::fmod(p.x() + p.y() + 10.0, 0.02) < 0.01 ? kBlue : kYellow; };
   for (const auto& [name, paint] : std::initializer_list<std::pair<const char*, std::function<Color(const Vec3&, int)>>>{
-           {"label", label}, {"band", band}, {"belt", belt}, {"lid", lid}, {"checks", checks}, {"spots", spots}}) {
+           {"label", label}, {"band", band}, {"belt", belt}, {"end", end}, {"lid", lid}, {"checks", checks}, {"spots", spots}}) {
     const std::vector<Cuboid> cuboids = perceive(painted(scene, paint)).cuboids;
     ASSERT_EQ(cuboids.size(), 1u) << name;
     EXPECT_LT(size_error(cuboids[0].box, scene.boxes[0]), 0.01) << name;

@@ -7,102 +7,20 @@
 #include <cmath>
 
 #include "cuboids/objects/color_regions.h"
+#include "cuboids/objects/extent.h"
+#include "cuboids/objects/prints.h"
 #include "cuboids/objects/upright_box.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kEnd = 0.02;         // quantile of the points, that counts as the end of a region
-constexpr double kRoomSigmas = 3.0;   // about an extent
-constexpr double kWithin = 0.9;       // of a region's points, in the extent of another one
-constexpr double kInLine = 0.2;       // of the lesser size, by which the ends of pieces of one thing differ at most
-constexpr double kBand = 0.6;         // of the lesser size, that a band between them is long at most
-constexpr double kMostOff = 0.15;     // of a part's points, that are not on the sides of the boxes of its regions
+constexpr double kMostOff = 0.15;      // of a part's points, that are not on the sides of the boxes of its regions
+constexpr double kOtherSide = 0.15;    // of a region's points, on the second of its sides
+constexpr double kWidestShift = 0.025; // of the picture's width, that it may be shifted against the depth image
+constexpr double kMostNear = 0.8;      // of a region's points, so near to its part's outline
+constexpr double kAlongOutline = 0.3;  // of the root of a region's points, that are beside its part
 constexpr std::size_t kSamplesOfRegion = 400;
-
-/// Along and across the front of something, and up.
-struct Directions {
-  Vec2 along;
-  Vec3 operator()(const Vec3& p) const { return {along.dot(p.head<2>()), along.x() * p.y() - along.y() * p.x(), p.z()}; }
-};
-
-/// As far as points reach in some directions.
-struct Extent {
-  Vec3 low, high;
-  double room = 0;  ///< m
-
-  bool holds(const Vec3& p) const { return (p.array() >= low.array() - room).all() && (p.array() <= high.array() + room).all(); }
-  bool has_on_side(const Vec3& p) const { return holds(p) && std::min((p - low).cwiseAbs().minCoeff(), (p - high).cwiseAbs().minCoeff()) < room; }
-};
-
-Extent extent_of(const Observation& seen, const Directions& directions, std::span<const int> points) {
-  Extent extent;
-  std::vector<Vec3> places;
-  for (const int i : points) places.push_back(directions(seen.points[i]));
-  for (int k = 0; k < 3; ++k) {
-    std::vector<double> place;
-    for (const Vec3& p : places) place.push_back(p[k]);
-    extent.low[k] = quantile(place, kEnd);
-    extent.high[k] = quantile(std::move(place), 1.0 - kEnd);
-  }
-  extent.room = kRoomSigmas * seen.graph.sigma[points.front()];
-  return extent;
-}
-
-double share_within(const Observation& seen, const Directions& directions, const Extent& extent, std::span<const int> points) {
-  const auto within = std::count_if(points.begin(), points.end(), [&](int i) { return extent.holds(directions(seen.points[i])); });
-  return static_cast<double>(within) / static_cast<double>(points.size());
-}
-
-/// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
-/// than either is long.
-bool goes_on(const Extent& a, const Extent& b) {
-  const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = (a.high - a.low).cwiseMin(b.high - b.low);
-  const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
-  int alike = 0, apart = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (gap[k] > 0.0) apart += gap[k] < kBand * size[k];
-    else alike += std::min(low[k], high[k]) < kInLine * size[k] + a.room;
-  }
-  return alike == 2 && apart == 1;
-}
-
-/// The regions that lie between two, as a print across one thing of their colour; none if others reach in.
-std::vector<std::size_t> bands_between(const Observation& seen, const Directions& directions, const std::vector<ColorRegion>& regions,
-                                       const std::vector<Extent>& extents, std::size_t a, std::size_t b) {
-  if (are_other_tints(regions[a].tint, regions[b].tint) || !goes_on(extents[a], extents[b])) return {};
-  const Extent both{extents[a].low.cwiseMin(extents[b].low), extents[a].high.cwiseMax(extents[b].high), extents[a].room};
-  std::vector<std::size_t> between;
-  for (std::size_t c = 0; c < regions.size(); ++c) {
-    if (c == a || c == b) continue;
-    const double share = share_within(seen, directions, both, regions[c].points);
-    if (share > kWithin) between.push_back(c);
-    else if (share > 1.0 - kWithin) return {};
-  }
-  return between;
-}
-
-/// Merges one print with what it is on; whether there was one.
-bool merge_print(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
-  std::vector<Extent> extents;
-  for (const ColorRegion& region : regions) extents.push_back(extent_of(seen, directions, region.points));
-  for (std::size_t a = 0; a < regions.size(); ++a)
-    for (std::size_t b = 0; b < regions.size(); ++b)
-      if (regions[b].points.size() < regions[a].points.size() && share_within(seen, directions, extents[a], regions[b].points) > kWithin) {
-        absorb(regions[a], regions[b]);
-        return true;
-      }
-  for (std::size_t a = 0; a < regions.size(); ++a)
-    for (std::size_t b = a + 1; b < regions.size(); ++b) {
-      const std::vector<std::size_t> bands = bands_between(seen, directions, regions, extents, a, b);
-      if (bands.empty()) continue;
-      absorb(regions[a], regions[b]);
-      for (const std::size_t c : bands) absorb(regions[a], regions[c]);
-      return true;
-    }
-  return false;
-}
 
 std::vector<Sample> some_samples(const Observation& seen, std::span<const int> points) {
   std::vector<Sample> samples;
@@ -123,6 +41,51 @@ double off_box(const Observation& seen, const ColorRegion& region) {
   return count * (1.0 - static_cast<double>(on) / static_cast<double>(samples.size()));
 }
 
+/// Whether a region has two sides of a box, and is no print on one, nor a strip along its outline.
+bool goes_round_an_edge(const Observation& seen, const ColorRegion& region) {
+  const std::vector<Sample> samples = some_samples(seen, region.points);
+  if (samples.empty()) return false;
+  const Directions directions{across_front(samples)};
+  std::array<std::size_t, 3> count{};
+  for (const Sample& s : samples) {
+    int axis = 0;
+    directions(s.n).cwiseAbs().maxCoeff(&axis);
+    ++count[axis];
+  }
+  std::sort(count.begin(), count.end());
+  return static_cast<double>(count[1]) > kOtherSide * static_cast<double>(samples.size());
+}
+
+/// A part in the picture: its points are those that `scratch` has as 0.
+struct PartOutline {
+  const Observation& seen;
+  const std::vector<int>& scratch;
+  int width, height;
+
+  bool is_beyond(int u, int v) const {
+    const int i = u < 0 || v < 0 || u >= width || v >= height ? -1 : seen.point_of_pixel[static_cast<std::size_t>(v) * width + u];
+    return i < 0 || scratch[i] != 0;
+  }
+  /// How many of a region's points have what is beyond the part so many pixels away, and a pixel farther: one alone may be a hole.
+  std::size_t near(const ColorRegion& region, int pixels) const {
+    const auto ends = [&](int u, int v, int du, int dv) { return is_beyond(u + pixels * du, v + pixels * dv) && is_beyond(u + (pixels + 1) * du, v + (pixels + 1) * dv); };
+    return static_cast<std::size_t>(std::count_if(region.points.begin(), region.points.end(), [&](int i) {
+      const int u = seen.pixel_of_point[i] % width, v = seen.pixel_of_point[i] / width;
+      return ends(u, v, -1, 0) || ends(u, v, 1, 0) || ends(u, v, 0, -1) || ends(u, v, 0, 1);
+    }));
+  }
+};
+
+/// What a region that has the colour of a support may be instead of a box.
+enum class Instead { nothing, print, background };
+
+Instead what_instead(const Observation& seen, const PartOutline& outline, const ColorRegion& region) {
+  const auto count = static_cast<double>(region.points.size());
+  const auto shift = static_cast<int>(kWidestShift * outline.width);
+  if (goes_round_an_edge(seen, region) && static_cast<double>(outline.near(region, shift)) < kMostNear * count) return Instead::nothing;
+  return static_cast<double>(outline.near(region, 1)) > kAlongOutline * std::sqrt(count) ? Instead::background : Instead::print;
+}
+
 /// Of each support that was seen, in the middle.
 std::vector<Tint> tints_of_supports(const Observation& seen) {
   std::vector<std::array<std::vector<double>, 2>> values(seen.supports.size());
@@ -134,28 +97,28 @@ std::vector<Tint> tints_of_supports(const Observation& seen) {
   return tints;
 }
 
-/// Whether two regions have all the colours that there are, two or more: what parts them is printed on them too, as on a checked box.
-bool are_one_print(const std::vector<ColorRegion>& regions) {
-  const auto has = [](const ColorRegion& region, const Tint& tint) {
-    return !are_other_tints(region.tint, tint) || std::any_of(region.others.begin(), region.others.end(), [&](const Tint& own) { return !are_other_tints(own, tint); });
-  };
-  return 2 <= std::count_if(regions.begin(), regions.end(), [&](const ColorRegion& region) {
-    const bool is_printed = std::any_of(region.others.begin(), region.others.end(), [&](const Tint& own) { return are_other_tints(region.tint, own); });
-    return is_printed && std::all_of(regions.begin(), regions.end(), [&](const ColorRegion& other) { return has(region, other.tint); });
-  });
-}
-
-/// The boxes of plain colours that a part consists of; none if it does not. What has the colour of a support may be that: the picture may be shifted
-/// against the depth image, or of another scale.
+/// The boxes of plain colours that a part consists of; none if it does not. What has the colour of a support and lies along the part's outline may be that:
+/// the picture may be shifted against the depth image, or of another scale.
 std::vector<ColorRegion> plain_boxes(const RgbdFrame& frame, const Observation& seen, std::span<const Tint> supports, std::span<const int> part, std::vector<int>& scratch) {
   std::vector<ColorRegion> regions = color_regions(frame, seen, part, scratch);
-  for (const ColorRegion& region : regions)
-    if (std::any_of(supports.begin(), supports.end(), [&](const Tint& tint) { return (region.tint - tint).norm() < kSameTint; })) return {};
+  if (regions.size() < 2) return {};
+  for (const int i : part) scratch[i] = 0;
+  const PartOutline outline{seen, scratch, frame.camera.width, frame.camera.height};
+  const auto may_be = [&](Instead what) {
+    return std::any_of(regions.begin(), regions.end(), [&](const ColorRegion& region) {
+      const bool as_support = std::any_of(supports.begin(), supports.end(), [&](const Tint& tint) { return (region.tint - tint).norm() < kSameTint; });
+      return as_support && what_instead(seen, outline, region) == what;
+    });
+  };
+  const bool is_shifted = may_be(Instead::background), has_labels = may_be(Instead::print);
+  for (const int i : part) scratch[i] = -2;
+  if (is_shifted) return {};
   const std::vector<Sample> samples = some_samples(seen, part);
-  if (regions.size() < 2 || samples.empty()) return {};
+  if (samples.empty()) return {};
   const Directions directions{across_front(samples)};
-  while (merge_print(seen, directions, regions)) std::erase_if(regions, [](const ColorRegion& region) { return region.points.empty(); });
+  merge_prints(seen, directions, regions);
   if (regions.size() < 2 || are_one_print(regions)) return {};
+  if (has_labels && std::count_if(regions.begin(), regions.end(), [&](const ColorRegion& region) { return goes_round_an_edge(seen, region); }) < 2) return {};
   double off = 0;
   for (const ColorRegion& region : regions) off += off_box(seen, region);
   if (off > kMostOff * static_cast<double>(part.size())) return {};

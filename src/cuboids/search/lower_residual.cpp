@@ -12,7 +12,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kGoodResidual = 1e-6;
-constexpr int kSteps = 12, kRounds = 8;
+constexpr int kDescents = 12, kRounds = 8;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr int kMostGrowth = 1200;  // arrangements that growing faces may be tried with, times bodies
 constexpr double kBetter = 0.9;  // of the energy: a step that leaves more is not worth its volume
@@ -143,7 +143,7 @@ void lower_residual(const Problem& problem, const Rooms& rooms, const Admissible
                     Arrangement& arrangement, Context& context) {
   State now = *state_of(problem, held, arrangement, kNoLimit);
   const std::vector<Extension> start = arrangement.extension;
-  for (int step = 0; step < kSteps && now.residual > kGoodResidual; ++step) {
+  for (int step = 0; step < kDescents && now.residual > kGoodResidual; ++step) {
     context.check();
     const std::vector<Extension> slope = gradient(problem, held, now);
     double squared = 0.0;

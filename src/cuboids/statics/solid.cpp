@@ -10,7 +10,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kFlat = 1e-5;      // of the radius: vertices so near a plane are on it
-constexpr double kSameDirection = 1e-6;  // rad
+constexpr double kParallelSine = 1e-6;
 constexpr double kLeast = 1e-30;    // radius: of smaller solids the squares of areas and weights vanish
 
 Vec3 newell(const std::vector<Vec3>& vertices, const std::vector<int>& loop) {  // doubled area
@@ -27,7 +27,7 @@ void add_edges(ConvexSolid& solid) {
       if (from > to) continue;  // the neighbouring face has it the other way round
       solid.edges.push_back({from, to});
       const Vec3 direction = (solid.vertices[to] - solid.vertices[from]).normalized();
-      const auto same = [&](const Vec3& d) { return d.cross(direction).norm() < kSameDirection; };
+      const auto same = [&](const Vec3& d) { return d.cross(direction).norm() < kParallelSine; };
       if (std::none_of(solid.edge_directions.begin(), solid.edge_directions.end(), same))
         solid.edge_directions.push_back(direction);
     }

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/objects/prints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr double kWithin = 0.9;  // of a region's points, in the extent of another one
+constexpr double kInLine = 0.2;  // of the lesser size, by which the ends of pieces of one thing differ at most
+constexpr double kBand = 0.6;    // of the lesser size, that a band between them is long at most
+constexpr double kThin = 0.2;    // of a thing's length, that its end in another colour has at most
+
+/// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
+/// than either is long.
+bool goes_on(const Extent& a, const Extent& b) {
+  const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = (a.high - a.low).cwiseMin(b.high - b.low);
+  const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
+  int alike = 0, apart = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (gap[k] > 0.0) apart += gap[k] < kBand * size[k];
+    else alike += std::min(low[k], high[k]) < kInLine * size[k] + a.room;
+  }
+  return alike == 2 && apart == 1;
+}
+
+/// Whether b is no more than an end of a in another colour, as a lid or a band around it: as long along two directions, and thin along the third.
+bool is_end_of(const Extent& a, const Extent& b) {
+  const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = a.high - a.low;
+  const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
+  int alike = 0, thin = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (std::max(low[k], high[k]) < kInLine * size[k] + a.room) ++alike;
+    else thin += b.high[k] - b.low[k] < kThin * size[k] && std::abs(gap[k]) < kThin * size[k] + a.room;
+  }
+  return alike == 2 && thin == 1;
+}
+
+/// The regions that lie between two, as a print across one thing of their colour; none if others reach in.
+std::vector<std::size_t> bands_between(const Observation& seen, const Directions& directions, const std::vector<ColorRegion>& regions,
+                                       const std::vector<Extent>& extents, std::size_t a, std::size_t b) {
+  if (are_other_tints(regions[a].tint, regions[b].tint) || !goes_on(extents[a], extents[b])) return {};
+  const Extent both{extents[a].low.cwiseMin(extents[b].low), extents[a].high.cwiseMax(extents[b].high), extents[a].room};
+  std::vector<std::size_t> between;
+  for (std::size_t c = 0; c < regions.size(); ++c) {
+    if (c == a || c == b) continue;
+    const double share = share_within(seen, directions, both, regions[c].points);
+    if (share > kWithin) between.push_back(c);
+    else if (share > 1.0 - kWithin) return {};
+  }
+  return between;
+}
+
+/// Merges one print with what it is on; whether there was one.
+bool merge_print(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
+  std::vector<Extent> extents;
+  for (const ColorRegion& region : regions) extents.push_back(extent_of(seen, directions, region.points));
+  for (std::size_t a = 0; a < regions.size(); ++a)
+    for (std::size_t b = 0; b < regions.size(); ++b)
+      if (regions[b].points.size() < regions[a].points.size() &&
+          (share_within(seen, directions, extents[a], regions[b].points) > kWithin || is_end_of(extents[a], extents[b]))) {
+        absorb(regions[a], regions[b]);
+        return true;
+      }
+  for (std::size_t a = 0; a < regions.size(); ++a)
+    for (std::size_t b = a + 1; b < regions.size(); ++b) {
+      const std::vector<std::size_t> bands = bands_between(seen, directions, regions, extents, a, b);
+      if (bands.empty()) continue;
+      absorb(regions[a], regions[b]);
+      for (const std::size_t c : bands) absorb(regions[a], regions[c]);
+      return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+void merge_prints(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
+  while (merge_print(seen, directions, regions)) std::erase_if(regions, [](const ColorRegion& region) { return region.points.empty(); });
+}
+
+bool are_one_print(const std::vector<ColorRegion>& regions) {
+  const auto has = [](const ColorRegion& region, const Tint& tint) {
+    return !are_other_tints(region.tint, tint) || std::any_of(region.others.begin(), region.others.end(), [&](const Tint& own) { return !are_other_tints(own, tint); });
+  };
+  return 2 <= std::count_if(regions.begin(), regions.end(), [&](const ColorRegion& region) {
+    const bool is_printed = std::any_of(region.others.begin(), region.others.end(), [&](const Tint& own) { return are_other_tints(region.tint, own); });
+    return is_printed && std::all_of(regions.begin(), regions.end(), [&](const ColorRegion& other) { return has(region, other.tint); });
+  });
+}
+
+}  // namespace unseen::cuboids
