@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # unseen_library(NAME SOURCES … [PUBLIC targets…] [PRIVATE targets…])
-# One library a folder: target unseen_NAME, alias unseen::NAME.
+# One library a folder of src: target unseen_NAME, alias unseen::NAME.
 function(unseen_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(unseen_${name} STATIC ${arg_SOURCES})

@@ -46,7 +46,7 @@ std::string unexpected(const CLI::App& app) {
   const bool names_command = !command.get_subcommands({}).empty();
   if (!names_command && flag == words.end()) {
     const bool yes_or_no = words.front() == "true" || words.front() == "false";
-    return words.front() + " is one argument too many" + (yes_or_no ? "; it belongs to an option if = is between" : "");
+    return words.front() + " is one argument too many" + (yes_or_no ? "; give it as --option=" + words.front() : "");
   }
   std::string word = names_command ? words.front() : *flag;
   if (is_flag(word)) word = word.substr(0, word.find('='));

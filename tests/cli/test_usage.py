@@ -44,7 +44,7 @@ class WrongCommandLines(CliTest):
                                 (["planes", "-o", "out"], "CLOUD"),
                                 (["planes", "room.ply", "more.ply", "-o", "out"], "more.ply is one argument too many"),
                                 (["planes", "--", "room.ply", "more.ply"], "more.ply is one argument too many"),
-                                (["planes", "room.ply", "--adaptive-scale", "false"], "false is one argument too many; it belongs to an option if = is between"),
+                                (["planes", "room.ply", "--adaptive-scale", "false"], "false is one argument too many; give it as --option=false"),
                                 (["synth", "--", "planes"], "planes is not known;"),
                                 (["planes", "room.ply", "-o", "out", "--threads", "-1"], "--threads"),
                                 (["sing"], "sing"),

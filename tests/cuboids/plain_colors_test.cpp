@@ -84,6 +84,23 @@ TEST(PlainColors, PartBoxesThatHaveTheColorOfTheFloor) {
   for (const OrientedBox& box : row.boxes) EXPECT_LT(size_error(nearest(cartons, box.center).box, box), 0.012);
 }
 
+/// It belongs to neither for sure.
+TEST(PlainColors, PartNothingUnderALabelThatLiesOnTwo) {
+  const Scene row = wall(2, 1, {0.2, 0.2, 0.2});
+  const auto paint = [](const Vec3& p, int side) { return side != 5 && std::abs(p.x()) < 0.05 && std::abs(p.z() - 0.1) < 0.04 ? kWhite : p.x() < 0.0 ? kRed : kBlue; };
+  EXPECT_EQ(perceive(painted(row, paint)).cuboids.size(), 1u);
+}
+
+/// A thin thing beside a thick one may be its end, but not what is beside the thin one.
+TEST(PlainColors, PartThinThingsInARow) {
+  Scene scene;
+  scene.height = 0.8;
+  scene.boxes = {upright(0, 1.2, 0, {0.24, 0.2, 0.2}, 0)};
+  const std::array colors{kRed, kGreen, kBlue, kYellow};
+  const auto paint = [&](const Vec3& p, int) { return colors[std::clamp(static_cast<int>(std::ceil((p.x() - 0.045) / 0.025)), 0, 3)]; };
+  EXPECT_EQ(perceive(painted(scene, paint)).cuboids.size(), 3u);
+}
+
 /// Where the floor's colour is on a box, the others are not where they seem to be.
 TEST(PlainColors, PartNothingInAPictureThatIsShifted) {
   const Scene row = wall(2, 1, {0.2, 0.2, 0.2});

@@ -14,8 +14,8 @@ constexpr double kRoomSigmas = 3.0;  // about an extent
 
 }  // namespace
 
-Extent extent_of(const Observation& seen, const Directions& directions, std::span<const int> points) {
-  Extent extent;
+DirectedExtent extent_of(const Observation& seen, const Directions& directions, std::span<const int> points) {
+  DirectedExtent extent;
   std::vector<Vec3> places;
   for (const int i : points) places.push_back(directions(seen.points[i]));
   for (int k = 0; k < 3; ++k) {
@@ -28,7 +28,7 @@ Extent extent_of(const Observation& seen, const Directions& directions, std::spa
   return extent;
 }
 
-double share_within(const Observation& seen, const Directions& directions, const Extent& extent, std::span<const int> points) {
+double share_within(const Observation& seen, const Directions& directions, const DirectedExtent& extent, std::span<const int> points) {
   const auto within = std::count_if(points.begin(), points.end(), [&](int i) { return extent.holds(directions(seen.points[i])); });
   return static_cast<double>(within) / static_cast<double>(points.size());
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "cuboids/surfaces/observation.h"
@@ -15,18 +16,18 @@ struct Directions {
 };
 
 /// As far as points reach in some directions.
-struct Extent {
+struct DirectedExtent {
   Vec3 low, high;
-  double room = 0;  ///< m
+  double room = 0;  ///< m, tolerance: 3σ of the first point
 
   bool holds(const Vec3& p) const { return (p.array() >= low.array() - room).all() && (p.array() <= high.array() + room).all(); }
   bool has_on_side(const Vec3& p) const { return holds(p) && std::min((p - low).cwiseAbs().minCoeff(), (p - high).cwiseAbs().minCoeff()) < room; }
 };
 
 /// Of some points (one at least), but for the outermost.
-Extent extent_of(const Observation& seen, const Directions& directions, std::span<const int> points);
+DirectedExtent extent_of(const Observation& seen, const Directions& directions, std::span<const int> points);
 
-/// How many of the points are in an extent, 0 … 1.
-double share_within(const Observation& seen, const Directions& directions, const Extent& extent, std::span<const int> points);
+/// How many of the points (one at least) are in an extent, 0 … 1.
+double share_within(const Observation& seen, const Directions& directions, const DirectedExtent& extent, std::span<const int> points);
 
 }  // namespace unseen::cuboids

@@ -15,11 +15,11 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kMostOff = 0.15;      // of a part's points, that are not on the sides of the boxes of its regions
-constexpr double kOtherSide = 0.15;    // of a region's points, on the second of its sides
-constexpr double kWidestShift = 0.025; // of the picture's width, that it may be shifted against the depth image
-constexpr double kMostNear = 0.8;      // of a region's points, so near to its part's outline
-constexpr double kAlongOutline = 0.3;  // of the root of a region's points, that are beside its part
+constexpr double kMostOff = 0.15;       // of a part's points, that are not on the sides of the boxes of its regions
+constexpr double kOtherSide = 0.15;     // of a region's points, on the second of its sides
+constexpr double kWidestShift = 0.025;  // of the picture's longer side, that it may be shifted against the depth image
+constexpr double kMostNear = 0.8;       // of a region's points, that are no farther than that from their part's outline
+constexpr double kAlongOutline = 1.0;   // points beside the outline, over the root of those of a region: what has more lies along it
 constexpr std::size_t kSamplesOfRegion = 400;
 
 std::vector<Sample> some_samples(const Observation& seen, std::span<const int> points) {
@@ -36,12 +36,12 @@ double off_box(const Observation& seen, const ColorRegion& region) {
   const std::vector<Sample> samples = some_samples(seen, region.points);
   if (samples.empty()) return count;
   const Directions directions{across_front(samples)};
-  const Extent extent = extent_of(seen, directions, region.points);
+  const DirectedExtent extent = extent_of(seen, directions, region.points);
   const auto on = std::count_if(samples.begin(), samples.end(), [&](const Sample& s) { return extent.has_on_side(directions(s.p)); });
   return count * (1.0 - static_cast<double>(on) / static_cast<double>(samples.size()));
 }
 
-/// Whether a region has two sides of a box, and is no print on one, nor a strip along its outline.
+/// Whether a region has two sides of a box.
 bool goes_round_an_edge(const Observation& seen, const ColorRegion& region) {
   const std::vector<Sample> samples = some_samples(seen, region.points);
   if (samples.empty()) return false;
@@ -56,7 +56,7 @@ bool goes_round_an_edge(const Observation& seen, const ColorRegion& region) {
   return static_cast<double>(count[1]) > kOtherSide * static_cast<double>(samples.size());
 }
 
-/// A part in the picture: its points are those that `scratch` has as 0.
+/// A part in the picture: its points are those that `scratch` has as 0. Where the picture ends, it ends.
 struct PartOutline {
   const Observation& seen;
   const std::vector<int>& scratch;
@@ -66,9 +66,13 @@ struct PartOutline {
     const int i = u < 0 || v < 0 || u >= width || v >= height ? -1 : seen.point_of_pixel[static_cast<std::size_t>(v) * width + u];
     return i < 0 || scratch[i] != 0;
   }
-  /// How many of a region's points have what is beyond the part so many pixels away, and a pixel farther: one alone may be a hole.
+  /// How many of a region's points have what is beyond the part no farther than so many pixels, across or down: two pixels of it, for one may be a hole.
   std::size_t near(const ColorRegion& region, int pixels) const {
-    const auto ends = [&](int u, int v, int du, int dv) { return is_beyond(u + pixels * du, v + pixels * dv) && is_beyond(u + (pixels + 1) * du, v + (pixels + 1) * dv); };
+    const auto ends = [&](int u, int v, int du, int dv) {
+      for (int k = 1; k <= pixels; ++k)
+        if (is_beyond(u + k * du, v + k * dv) && is_beyond(u + (k + 1) * du, v + (k + 1) * dv)) return true;
+      return false;
+    };
     return static_cast<std::size_t>(std::count_if(region.points.begin(), region.points.end(), [&](int i) {
       const int u = seen.pixel_of_point[i] % width, v = seen.pixel_of_point[i] / width;
       return ends(u, v, -1, 0) || ends(u, v, 1, 0) || ends(u, v, 0, -1) || ends(u, v, 0, 1);
@@ -76,14 +80,15 @@ struct PartOutline {
   }
 };
 
-/// What a region that has the colour of a support may be instead of a box.
-enum class Instead { nothing, print, background };
+/// What a region is that has the colour of a support: the support itself, in a picture that is shifted against the depth image or of another scale, lies
+/// along the outline of what stands before it.
+enum class Kind { box, print, background };
 
-Instead what_instead(const Observation& seen, const PartOutline& outline, const ColorRegion& region) {
+Kind kind_of(const Observation& seen, const PartOutline& outline, const ColorRegion& region) {
   const auto count = static_cast<double>(region.points.size());
-  const auto shift = static_cast<int>(kWidestShift * outline.width);
-  if (goes_round_an_edge(seen, region) && static_cast<double>(outline.near(region, shift)) < kMostNear * count) return Instead::nothing;
-  return static_cast<double>(outline.near(region, 1)) > kAlongOutline * std::sqrt(count) ? Instead::background : Instead::print;
+  const int shift = std::max(1, static_cast<int>(kWidestShift * std::max(outline.width, outline.height)));
+  if (goes_round_an_edge(seen, region) && static_cast<double>(outline.near(region, shift)) < kMostNear * count) return Kind::box;
+  return static_cast<double>(outline.near(region, 1)) > kAlongOutline * std::sqrt(count) ? Kind::background : Kind::print;
 }
 
 /// Of each support that was seen, in the middle.
@@ -97,27 +102,19 @@ std::vector<Tint> tints_of_supports(const Observation& seen) {
   return tints;
 }
 
-/// The boxes of plain colours that a part consists of; none if it does not. What has the colour of a support and lies along the part's outline may be that:
-/// the picture may be shifted against the depth image, or of another scale.
-std::vector<ColorRegion> plain_boxes(const RgbdFrame& frame, const Observation& seen, std::span<const Tint> supports, std::span<const int> part, std::vector<int>& scratch) {
-  std::vector<ColorRegion> regions = color_regions(frame, seen, part, scratch);
-  if (regions.size() < 2) return {};
-  for (const int i : part) scratch[i] = 0;
-  const PartOutline outline{seen, scratch, frame.camera.width, frame.camera.height};
-  const auto may_be = [&](Instead what) {
+/// The boxes of plain colours that a part consists of, none if it does not, or if what is printed on it does not tell on which.
+std::vector<ColorRegion> plain_boxes(const Observation& seen, std::span<const Tint> supports, std::span<const int> part, const PartOutline& outline, std::vector<ColorRegion> regions) {
+  const auto is_any = [&](Kind kind) {
     return std::any_of(regions.begin(), regions.end(), [&](const ColorRegion& region) {
       const bool as_support = std::any_of(supports.begin(), supports.end(), [&](const Tint& tint) { return (region.tint - tint).norm() < kSameTint; });
-      return as_support && what_instead(seen, outline, region) == what;
+      return as_support && kind_of(seen, outline, region) == kind;
     });
   };
-  const bool is_shifted = may_be(Instead::background), has_labels = may_be(Instead::print);
-  for (const int i : part) scratch[i] = -2;
-  if (is_shifted) return {};
   const std::vector<Sample> samples = some_samples(seen, part);
-  if (samples.empty()) return {};
-  const Directions directions{across_front(samples)};
-  merge_prints(seen, directions, regions);
-  if (regions.size() < 2 || are_one_print(regions)) return {};
+  if (regions.size() < 2 || samples.empty() || is_any(Kind::background)) return {};
+  const bool has_labels = is_any(Kind::print);
+  merge_prints(seen, Directions{across_front(samples)}, regions);
+  if (regions.size() < 2 || are_one_print(regions) || is_any(Kind::print)) return {};
   if (has_labels && std::count_if(regions.begin(), regions.end(), [&](const ColorRegion& region) { return goes_round_an_edge(seen, region); }) < 2) return {};
   double off = 0;
   for (const ColorRegion& region : regions) off += off_box(seen, region);
@@ -134,7 +131,10 @@ void find_plain_colors(const RgbdFrame& frame, const Observation& seen, const st
   int stack = *std::max_element(stacks.stack_of_piece.begin(), stacks.stack_of_piece.end()) + 1;
   for (const std::vector<int>& part : parts) {
     context.check();
-    const std::vector<ColorRegion> boxes = plain_boxes(frame, seen, supports, part, scratch);
+    std::vector<ColorRegion> regions = color_regions(frame, seen, part, scratch);
+    for (const int i : part) scratch[i] = 0;
+    const std::vector<ColorRegion> boxes = plain_boxes(seen, supports, part, {seen, scratch, frame.camera.width, frame.camera.height}, std::move(regions));
+    for (const int i : part) scratch[i] = -2;
     if (boxes.empty()) continue;
     for (const int i : part) stacks.piece_of_point[i] = 0;
     for (const ColorRegion& box : boxes) {

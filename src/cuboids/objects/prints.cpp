@@ -4,45 +4,70 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kWithin = 0.9;  // of a region's points, in the extent of another one
-constexpr double kInLine = 0.2;  // of the lesser size, by which the ends of pieces of one thing differ at most
-constexpr double kBand = 0.6;    // of the lesser size, that a band between them is long at most
-constexpr double kThin = 0.2;    // of a thing's length, that its end in another colour has at most
+constexpr double kWithin = 0.9;      // of a region's points, in the extent of another one
+constexpr double kInLine = 0.2;      // of a size, by which the ends of pieces of one thing differ at most
+constexpr double kBandBetween = 0.6; // of the lesser size, that a band between them is long at most
+constexpr double kThinEnd = 0.2;     // of a thing's length, that its end in another colour goes beyond it at most
 
 /// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
 /// than either is long.
-bool goes_on(const Extent& a, const Extent& b) {
+bool goes_on(const DirectedExtent& a, const DirectedExtent& b) {
   const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = (a.high - a.low).cwiseMin(b.high - b.low);
   const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
   int alike = 0, apart = 0;
   for (int k = 0; k < 3; ++k) {
-    if (gap[k] > 0.0) apart += gap[k] < kBand * size[k];
+    if (gap[k] > 0.0) apart += gap[k] < kBandBetween * size[k];
     else alike += std::min(low[k], high[k]) < kInLine * size[k] + a.room;
   }
   return alike == 2 && apart == 1;
 }
 
-/// Whether b is no more than an end of a in another colour, as a lid or a band around it: as long along two directions, and thin along the third.
-bool is_end_of(const Extent& a, const Extent& b) {
-  const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = a.high - a.low;
-  const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
-  int alike = 0, thin = 0;
+/// Whether b is no more than an end of a in another colour, as a lid or a band around it: as long along two directions, and along the third hardly beyond it.
+bool is_end_of(const DirectedExtent& a, const DirectedExtent& b) {
+  const Vec3 low = a.low - b.low, high = b.high - a.high, size = a.high - a.low;
+  int alike = 0, beyond = 0;
   for (int k = 0; k < 3; ++k) {
-    if (std::max(low[k], high[k]) < kInLine * size[k] + a.room) ++alike;
-    else thin += b.high[k] - b.low[k] < kThin * size[k] && std::abs(gap[k]) < kThin * size[k] + a.room;
+    if (std::max(std::abs(low[k]), std::abs(high[k])) < kInLine * size[k] + a.room) ++alike;
+    else beyond += std::max(low[k], high[k]) < kThinEnd * size[k] && std::max(low[k], high[k]) > 0.0;
   }
-  return alike == 2 && thin == 1;
+  return alike == 2 && beyond == 1;
+}
+
+std::vector<DirectedExtent> extents_of(const Observation& seen, const Directions& directions, const std::vector<ColorRegion>& regions) {
+  std::vector<DirectedExtent> extents;
+  for (const ColorRegion& region : regions) extents.push_back(extent_of(seen, directions, region.points));
+  return extents;
+}
+
+void erase_empty(std::vector<ColorRegion>& regions) {
+  std::erase_if(regions, [](const ColorRegion& region) { return region.points.empty(); });
+}
+
+/// Merges ends with what they are of: by how far that reached before it had any, or one end would bring the next.
+void merge_ends(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
+  const std::vector<DirectedExtent> extents = extents_of(seen, directions, regions);
+  std::vector<std::size_t> by_size(regions.size());
+  std::iota(by_size.begin(), by_size.end(), std::size_t{0});
+  std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t a, std::size_t b) { return regions[a].points.size() > regions[b].points.size(); });
+  for (std::size_t b = by_size.size(); b-- > 1;)
+    for (std::size_t a = 0; a < b; ++a)
+      if (is_end_of(extents[by_size[a]], extents[by_size[b]])) {
+        absorb(regions[by_size[a]], regions[by_size[b]]);
+        break;
+      }
+  erase_empty(regions);
 }
 
 /// The regions that lie between two, as a print across one thing of their colour; none if others reach in.
 std::vector<std::size_t> bands_between(const Observation& seen, const Directions& directions, const std::vector<ColorRegion>& regions,
-                                       const std::vector<Extent>& extents, std::size_t a, std::size_t b) {
+                                       const std::vector<DirectedExtent>& extents, std::size_t a, std::size_t b) {
   if (are_other_tints(regions[a].tint, regions[b].tint) || !goes_on(extents[a], extents[b])) return {};
-  const Extent both{extents[a].low.cwiseMin(extents[b].low), extents[a].high.cwiseMax(extents[b].high), extents[a].room};
+  const DirectedExtent both{extents[a].low.cwiseMin(extents[b].low), extents[a].high.cwiseMax(extents[b].high), extents[a].room};
   std::vector<std::size_t> between;
   for (std::size_t c = 0; c < regions.size(); ++c) {
     if (c == a || c == b) continue;
@@ -55,12 +80,10 @@ std::vector<std::size_t> bands_between(const Observation& seen, const Directions
 
 /// Merges one print with what it is on; whether there was one.
 bool merge_print(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
-  std::vector<Extent> extents;
-  for (const ColorRegion& region : regions) extents.push_back(extent_of(seen, directions, region.points));
+  const std::vector<DirectedExtent> extents = extents_of(seen, directions, regions);
   for (std::size_t a = 0; a < regions.size(); ++a)
     for (std::size_t b = 0; b < regions.size(); ++b)
-      if (regions[b].points.size() < regions[a].points.size() &&
-          (share_within(seen, directions, extents[a], regions[b].points) > kWithin || is_end_of(extents[a], extents[b]))) {
+      if (regions[b].points.size() < regions[a].points.size() && share_within(seen, directions, extents[a], regions[b].points) > kWithin) {
         absorb(regions[a], regions[b]);
         return true;
       }
@@ -78,7 +101,8 @@ bool merge_print(const Observation& seen, const Directions& directions, std::vec
 }  // namespace
 
 void merge_prints(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
-  while (merge_print(seen, directions, regions)) std::erase_if(regions, [](const ColorRegion& region) { return region.points.empty(); });
+  merge_ends(seen, directions, regions);
+  while (merge_print(seen, directions, regions)) erase_empty(regions);
 }
 
 bool are_one_print(const std::vector<ColorRegion>& regions) {
