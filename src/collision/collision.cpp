@@ -167,6 +167,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   result.bodies.clear();
   describe(shot, tracks, evidence.fps, impacts, result);
   remark_on(shot, options, tracks, impacts, result, context);
+  warn_of_dimmed(shot, evidence.footage, tracks, context);
   if (result.restitution) return;
   summary.status = Status::infeasible;
   warn_of_far_sightings(shot, evidence.fps, context);

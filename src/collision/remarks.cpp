@@ -117,6 +117,20 @@ void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& 
   if (footage.moving_camera) context.warn("the camera moves more than can be undone; film from a tripod");
 }
 
+void warn_of_dimmed(const Shot& shot, const Footage& footage, const Tracks& tracks, Context& context) {
+  constexpr double kMuch = 0.03;  // of what differs from the background
+  if (footage.regions.empty()) return;
+  for (int o = 0; o < 2; ++o) {
+    if (shot.bodies[o].shape == Shape::fixed || shot.bodies[o].shape == Shape::sphere) continue;
+    double sum = 0.0, count = 0.0;
+    for (const TrackPoint& p : tracks.points)
+      if (p.body == o && p.region >= 0) sum += footage.regions[static_cast<std::size_t>(p.frame)][static_cast<std::size_t>(p.region)].dimmed, ++count;
+    if (sum > kMuch * count)
+      context.warn(fmt::format("{}: what is merely darker than the background beside it, {:.0f} % of its outline, is taken for its shadow; where that is its own shaded side the result is wrong. A background "
+                               "of another colour, or with texture, tells them apart", shot.bodies[o].name, 100.0 * sum / count));
+  }
+}
+
 void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   doubt_labels(shot, tracks, impacts.front(), result, context);
   compare_scales(shot, impacts, context);

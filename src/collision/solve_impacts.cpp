@@ -51,11 +51,12 @@ double distinct_share(const std::vector<SolvedImpact>& impacts) {
 
 std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
                                           Tracks& tracks, double fps, Context& context) {
+  constexpr int kStarts = 4;  // which of two balls is in front at the impact may be open
   std::vector<SolvedImpact> impacts;
   for (const Tracks::Meeting& meeting : std::vector(tracks.meetings)) {
     SolvedImpact impact;
     impact.meeting = meeting;
-    const auto solve = [&](const Tracks& seen) { return best_fit(problem_of(shot, options, camera, solids, seen, meeting), meeting.time, 1, context); };
+    const auto solve = [&](const Tracks& seen) { return best_fit(problem_of(shot, options, camera, solids, seen, meeting), meeting.time, kStarts, context); };
     impact.solution = solve(tracks);
     if (is_off_something_else(shot, options, tracks.noise, fps, impact, context)) continue;
     settle_split(solve, impact.meeting, 1.0 / fps, tracks, impact.solution);

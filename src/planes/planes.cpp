@@ -7,13 +7,13 @@
 #include <algorithm>
 
 #include "planes/arrange.h"
-#include "planes/patches/doubt.h"
 #include "planes/patches/patches.h"
 #include "planes/result/assign.h"
 #include "planes/result/describe.h"
 #include "planes/result/remarks.h"
 #include "planes/scan/cells.h"
 #include "planes/scan/scale.h"
+#include "planes/selection/doubt.h"
 #include "planes/selection/select.h"
 #include "unseen/core/error.h"
 

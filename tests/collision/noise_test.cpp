@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // The noise of sightings, its size and its shape, and what is to be gained from it.
-#include "collision/doubts/noise.h"
+#include "collision/solve/noise.h"
 
 #include <gtest/gtest.h>
 

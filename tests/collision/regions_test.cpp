@@ -150,6 +150,31 @@ TEST(Regions, WhatRestsMostOfTheTimeIsNoBackground) {
   for (const Region& r : footage.regions[2]) EXPECT_TRUE((r.centroid - place(2)).norm() < 1.0 || r.area < 60.0);  // no ghost of it
 }
 
+TEST(Regions, WhatWaitsUntilItIsHitIsNoBackground) {
+  const Scratch scratch("waits");
+  const std::string path = scratch.file("waits.avi");
+  const auto hit = [](int k) { return Vec2(150.0 + 4.5 * std::max(0, k - 36), 120.0); };
+  const auto striker = [](int k) { return Vec2(k < 36 ? 122.0 - 3.0 * (36 - k) : 122.0 + 1.6 * (k - 36), 120.0); };  // goes on over its place
+  for (const bool rough : {false, true}) {
+    const cv::Mat background = rough ? wall() : cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(125, 140, 150));
+    Random random(4);
+    write_video(path, 60, [&](int k) {
+      cv::Mat frame = background.clone();
+      draw_disc(frame, hit(k), 14.0, cv::Scalar(205, 130, 85));
+      draw_disc(frame, striker(k), 14.0, kRed);
+      add_noise(frame, 1.5, random);
+      return frame;
+    });
+    Context context;
+    const Footage footage = find_regions(shot_of(path), context);
+    EXPECT_LT(worst_error(footage, 1, 30, hit), 1.0) << rough;  // apart until then
+    EXPECT_LT(worst_error(footage, 1, 30, striker), 1.0) << rough;
+    EXPECT_LT(worst_error(footage, 42, 58, hit), 1.0) << rough;
+    EXPECT_LT(worst_error(footage, 42, 58, striker), rough ? 3.0 : 1.0) << rough;  // behind a part of it nothing was ever seen
+    for (const Region& r : footage.regions[58]) EXPECT_TRUE((r.centroid - hit(58)).norm() < 3.0 || (r.centroid - striker(58)).norm() < 3.0 || r.area < 60.0) << rough;
+  }
+}
+
 TEST(Regions, ABodyThatLingersLeavesNoGhost) {
   const Scratch scratch("linger");
   const std::string path = scratch.file("linger.avi");

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/boxes/box_overlap.h"
 #include "cuboids/evaluate/evaluate_parts.h"
 #include "cuboids/evaluate/referee.h"
 #include "unseen/core/error.h"

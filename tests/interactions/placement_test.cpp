@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/layout/placement_fit.h"
+#include "interactions/matching/placement_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "interactions/layout/shadow.h"
+#include "interactions/matching/shadow.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/patches/doubt.h"
+#include "planes/selection/doubt.h"
 
 #include <gtest/gtest.h>
 

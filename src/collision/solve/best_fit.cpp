@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/doubts/noise.h"
 #include "collision/shot_problem.h"
+#include "collision/solve/noise.h"
 #include "collision/solve/spin_starts.h"
 #include "collision/solve/starts.h"
 #include "collision/solve/unknowns.h"

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include "collision/doubts/noise.h"
+#include "collision/solve/noise.h"
 #include "collision/solve/rotation.h"
 #include "collision/solve/unknowns.h"
 

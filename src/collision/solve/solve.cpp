@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "collision/doubts/noise.h"
+#include "collision/solve/noise.h"
 #include "collision/solve/residuals.h"
 #include "collision/solve/unknowns.h"
 

@@ -93,7 +93,11 @@ bool refine(const cv::Mat& frame, const Background& background, const cv::Mat& d
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
     cv::morphologyEx(lit, lit, cv::MORPH_OPEN, element, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
     cv::morphologyEx(lit, lit, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
-    if (cv::countNonZero(lit) > kCore * area) part.mask = lit;
+    const int left = cv::countNonZero(lit);
+    if (left > kCore * area) {
+      part.mask = lit;
+      if (shade.sign == ShadowSign::light) part.dimmed = 1.0 - static_cast<double>(left) / area;
+    }
   }
   sharpen_outline(part.mask, contrast);
   return largest_piece(part.mask);
@@ -171,6 +175,7 @@ Region describe_part(const Part& part, const cv::Mat& frame, int index, int scal
   region.at_border = whole.x <= 1 || whole.y <= 1 || whole.br().x >= frame.cols - 1 || whole.br().y >= frame.rows - 1;
   region.shadow = part.shadow;
   region.sign = part.sign;
+  region.dimmed = part.dimmed;
   return region;
 }
 

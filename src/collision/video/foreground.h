@@ -16,6 +16,7 @@ struct Part {
   cv::Mat mask;         ///< 8 bit, of `box`
   bool shadow = false;  ///< all of it could be the background with less light
   ShadowSign sign = ShadowSign::light;
+  double dimmed = 0;    ///< share that was cut off as a shadow for being darker than the background alone
 };
 
 /// Parts of a frame where it differs from the background (already brought to the frame's brightness and place) by more than the noise:

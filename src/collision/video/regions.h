@@ -30,6 +30,7 @@ struct Region {
   bool clipped = false;       ///< the same, or cut by it in a corner only, which of a ball is next to nothing
   bool shadow = false;        ///< all of it could be the background with less light
   ShadowSign sign = ShadowSign::light;  ///< if it is
+  double dimmed = 0;          ///< share that was cut off as a shadow for being darker than the background alone
 };
 
 /// A video's moving regions, with what was found out about the video itself.

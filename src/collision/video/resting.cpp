@@ -6,42 +6,128 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/video/other_colors.h"
+
 namespace unseen::collision {
 namespace {
 
-constexpr double kOther = 20.0;      // grey levels, and
-constexpr double kOtherSigmas = 6.0;  // σ: farther from the median is another colour
-constexpr double kShare = 0.08;      // of the frames that have to show it
-constexpr int kFewest = 3;           // frames
-constexpr double kSteady = 12.0;     // grey levels: mean deviation of the second colour about its mean
-constexpr double kSmoother = 0.6;    // the second colour's step at the outline, as a share of the first's
-constexpr int kSmallest = 30;        // px
+constexpr double kLike = 25.0;      // grey levels off what is around: still its colour
+constexpr double kDarkest = 8.0, kShade = 0.1;  // grey levels, and share of the light: darker than that is in shadow
+constexpr double kUnlike = 10.0;    // grey levels off it, beside what is farther off: of the same body or its shadow
+constexpr double kReach = 1.0;      // so far beside it, in square roots of its area
+constexpr double kRevealed = 0.25;  // of a part's border: so much of what is behind it has to be seen
+constexpr double kSmoother = 0.6;   // what is behind: its step at the outline, as a share of that of the median
+constexpr int kSmallest = 30;       // px
+constexpr int kMargin = 12;         // px, of what is looked at around a part
+constexpr int kAround = 3;          // px, that a hole is filled from
 
-/// The mean colour of the frames that differ from the median, where enough of them agree; `agree` is 255 there.
-cv::Mat second_color(const std::vector<cv::Mat>& frames, const cv::Mat& noise, const cv::Mat& picture, cv::Mat& agree) {
-  cv::Mat sum = cv::Mat::zeros(picture.size(), CV_32FC3), square = cv::Mat::zeros(picture.size(), CV_32F), count = cv::Mat::zeros(picture.size(), CV_32F);
-  for (const cv::Mat& frame : frames)
-    for (int y = 0; y < frame.rows; ++y)
-      for (int x = 0; x < frame.cols; ++x) {
-        const cv::Vec3b &f = frame.at<cv::Vec3b>(y, x), &b = picture.at<cv::Vec3b>(y, x);
-        const double limit = std::max(kOther, kOtherSigmas * noise.at<float>(y, x));
-        if (std::max({std::abs(f[0] - b[0]), std::abs(f[1] - b[1]), std::abs(f[2] - b[2])}) <= limit) continue;
-        sum.at<cv::Vec3f>(y, x) += cv::Vec3f(f[0], f[1], f[2]);
-        square.at<float>(y, x) += static_cast<float>(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
-        count.at<float>(y, x) += 1.0f;
-      }
-  const double fewest = std::max<double>(kFewest, kShare * static_cast<double>(frames.size()));
-  cv::Mat second = picture.clone();
-  agree = cv::Mat::zeros(picture.size(), CV_8U);
+cv::Mat disc5() { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}); }
+
+/// Fills `hole` from around it inward, each pixel with the mean of what is known near it.
+cv::Mat filled(const cv::Mat& picture, const cv::Mat& hole) {
+  cv::Mat fill, known = ~hole, next;
+  picture.convertTo(fill, CV_32FC3);
+  std::vector<cv::Point> rim;
+  for (;;) {
+    cv::dilate(known, next, cv::Mat());
+    cv::findNonZero(next & ~known, rim);
+    if (rim.empty()) return fill;
+    for (const cv::Point& at : rim) {
+      const cv::Rect near = cv::Rect(at.x - kAround, at.y - kAround, 2 * kAround + 1, 2 * kAround + 1) & cv::Rect({0, 0}, picture.size());
+      const cv::Scalar mean = cv::mean(fill(near), known(near));
+      fill.at<cv::Vec3f>(at) = cv::Vec3f(static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2]));
+    }
+    known = next.clone();
+  }
+}
+
+/// Whether a colour may be the expected one, in no shadow.
+bool is_like(const cv::Vec3b& color, const cv::Vec3f& expected) {
+  for (int c = 0; c < 3; ++c)
+    if (color[c] > expected[c] + kLike || color[c] < expected[c] - std::max<double>(kDarkest, kShade * expected[c])) return false;
+  return true;
+}
+
+/// `hole` as it is filled from around it and its own blurred rim.
+cv::Mat surroundings(const cv::Mat& picture, const cv::Mat& hole) {
+  cv::Mat larger;
+  cv::dilate(hole, larger, disc5());
+  return filled(picture, larger);
+}
+
+/// The colours around a hole, if they are often unlike the mean of what is near them: then that does not tell what is behind it, but is like some of them.
+std::vector<cv::Vec3b> texture_around(const cv::Mat& picture, const cv::Mat& hole) {
+  constexpr int kWindow = 15;         // px
+  constexpr double kTextured = 0.03;  // of what is around
+  cv::Mat ring, known, weight, sum, weights;
+  cv::dilate(hole, ring, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kMargin + 1, 2 * kMargin + 1}));
+  cv::Mat(~hole).convertTo(weight, CV_32F, 1.0 / 255.0);
+  picture.convertTo(known, CV_32FC3);
+  known.setTo(0, hole);
+  cv::blur(known, sum, {kWindow, kWindow});
+  cv::blur(weight, weights, {kWindow, kWindow});
+  int unlike = 0;
+  std::vector<cv::Vec3b> colors;
+  for (int y = 0; y < hole.rows; ++y)
+    for (int x = 0; x < hole.cols; ++x) {
+      if (!ring.at<unsigned char>(y, x) || hole.at<unsigned char>(y, x)) continue;
+      colors.push_back(picture.at<cv::Vec3b>(y, x));
+      unlike += !is_like(colors.back(), sum.at<cv::Vec3f>(y, x) / weights.at<float>(y, x));
+    }
+  if (unlike <= kTextured * static_cast<double>(colors.size())) colors.clear();
+  return colors;
+}
+
+/// Whether more than a few of the colours are this one.
+bool is_among(const std::vector<cv::Vec3b>& colors, const cv::Vec3b& color) {
+  constexpr double kSame = 12.0, kFew = 0.01;  // grey levels, share
+  const auto same = std::count_if(colors.begin(), colors.end(), [&](const cv::Vec3b& c) { return farthest(c, color) <= kSame; });
+  return static_cast<double>(same) > kFew * static_cast<double>(colors.size());
+}
+
+/// Where the picture is unlike what is around all of `places`: where a body comes to rest beside one that was there before, it is right.
+cv::Mat standing_out(const cv::Mat& picture, const cv::Mat& places) {
+  const cv::Mat fill = surroundings(picture, places);
+  cv::Mat out = cv::Mat::zeros(picture.size(), CV_8U);
   for (int y = 0; y < picture.rows; ++y)
-    for (int x = 0; x < picture.cols; ++x) {
-      const float n = count.at<float>(y, x);
-      if (n < fewest) continue;
-      const cv::Vec3f mean = sum.at<cv::Vec3f>(y, x) / n;
-      if (square.at<float>(y, x) / n - mean.dot(mean) > 3.0 * kSteady * kSteady) continue;
-      second.at<cv::Vec3b>(y, x) = cv::Vec3b(cv::saturate_cast<unsigned char>(mean[0]), cv::saturate_cast<unsigned char>(mean[1]),
-                                             cv::saturate_cast<unsigned char>(mean[2]));
-      agree.at<unsigned char>(y, x) = 255;
+    for (int x = 0; x < picture.cols; ++x)
+      if (places.at<unsigned char>(y, x) && farthest(picture.at<cv::Vec3b>(y, x), fill.at<cv::Vec3f>(y, x)) > kLike) out.at<unsigned char>(y, x) = 255;
+  return out;
+}
+
+/// A part with its shadow: what is beside it, unlike its surroundings, and was like them in other frames.
+cv::Mat with_shadow(const cv::Mat& picture, const cv::Mat& part, const OtherColors& others, const cv::Point& corner, int reach) {
+  cv::Mat near, whole = part.clone();
+  cv::dilate(part, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
+  near &= others.index(cv::Rect(corner, part.size())) >= 0;
+  const cv::Mat fill = surroundings(picture, part | near);
+  for (int y = 0; y < part.rows; ++y)
+    for (int x = 0; x < part.cols; ++x) {
+      if (!near.at<unsigned char>(y, x) || farthest(picture.at<cv::Vec3b>(y, x), fill.at<cv::Vec3f>(y, x)) <= kUnlike) continue;
+      const std::vector<cv::Vec3b> colors = others.at(corner + cv::Point(x, y));
+      if (std::any_of(colors.begin(), colors.end(), [&](const cv::Vec3b& c) { return is_like(c, fill.at<cv::Vec3f>(y, x)); })) whole.at<unsigned char>(y, x) = 255;
+    }
+  cv::morphologyEx(whole, whole, cv::MORPH_CLOSE, disc5());
+  cv::morphologyEx(whole, whole, cv::MORPH_OPEN, disc5());
+  return whole;
+}
+
+/// What lies behind a part: the other colour that is most like what is around it, or the only one if it is of a texture there; or else what is around it.
+/// `seen` is 255 where it is such a colour.
+cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& others, const cv::Point& corner, cv::Mat& seen) {
+  const cv::Mat fill = surroundings(picture, part);
+  const std::vector<cv::Vec3b> texture = texture_around(picture, part);
+  cv::Mat second = picture.clone();
+  seen = cv::Mat::zeros(part.size(), CV_8U);
+  for (int y = 0; y < part.rows; ++y)
+    for (int x = 0; x < part.cols; ++x) {
+      if (!part.at<unsigned char>(y, x)) continue;
+      const cv::Vec3f& expected = fill.at<cv::Vec3f>(y, x);
+      std::vector<cv::Vec3b> colors = others.at(corner + cv::Point(x, y));
+      if (colors.size() != 1 || !is_among(texture, colors.front())) std::erase_if(colors, [&](const cv::Vec3b& c) { return !is_like(c, expected); });
+      const auto nearest = std::min_element(colors.begin(), colors.end(), [&](const cv::Vec3b& a, const cv::Vec3b& b) { return farthest(a, expected) < farthest(b, expected); });
+      second.at<cv::Vec3b>(y, x) = nearest == colors.end() ? cv::Vec3b(expected) : *nearest;
+      if (nearest != colors.end()) seen.at<unsigned char>(y, x) = 255;
     }
   return second;
 }
@@ -75,26 +161,28 @@ double step_at_outline(const cv::Mat& inside, const cv::Mat& outside, const cv::
 }  // namespace
 
 void remove_resting(const std::vector<cv::Mat>& frames, const cv::Mat& noise, cv::Mat& picture) {
-  cv::Mat agree, labels, stats, centers;
-  const cv::Mat second = second_color(frames, noise, picture, agree);
-  const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5});
-  cv::morphologyEx(agree, agree, cv::MORPH_CLOSE, element);
-  cv::morphologyEx(agree, agree, cv::MORPH_OPEN, element);
-  const int count = cv::connectedComponentsWithStats(agree, labels, stats, centers, 8);
+  const OtherColors others = other_colors(frames, noise, picture);
+  cv::Mat came, labels, stats, centers;
+  cv::morphologyEx(others.follow, came, cv::MORPH_CLOSE, disc5());
+  cv::morphologyEx(came, came, cv::MORPH_OPEN, disc5());
+  came = standing_out(picture, came);
+  cv::morphologyEx(came, came, cv::MORPH_OPEN, disc5());
+  const int count = cv::connectedComponentsWithStats(came, labels, stats, centers, 8);
   for (int i = 1; i < count; ++i) {
-    if (stats.at<int>(i, cv::CC_STAT_AREA) < kSmallest) continue;
-    cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT) - 6, stats.at<int>(i, cv::CC_STAT_TOP) - 6, stats.at<int>(i, cv::CC_STAT_WIDTH) + 12,
-                 stats.at<int>(i, cv::CC_STAT_HEIGHT) + 12);
-    box &= cv::Rect({0, 0}, picture.size());
-    const cv::Mat part = labels(box) == i;
-    cv::Mat smaller, larger, largest;
-    cv::erode(part, smaller, element);
-    cv::dilate(part, larger, element);
-    cv::dilate(larger, largest, element);
-    const cv::Mat inner = part & ~smaller, outer = largest & ~larger;
-    const double kept = step_at_outline(picture(box), picture(box), inner, outer);
-    const double other = step_at_outline(second(box), picture(box), inner, outer);
-    if (other < kSmoother * kept) second(box).copyTo(picture(box), larger);
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA), reach = cvRound(kReach * std::sqrt(area)), margin = reach + kMargin;
+    if (area < kSmallest) continue;
+    const cv::Rect box = cv::Rect(stats.at<int>(i, cv::CC_STAT_LEFT) - margin, stats.at<int>(i, cv::CC_STAT_TOP) - margin,
+                                  stats.at<int>(i, cv::CC_STAT_WIDTH) + 2 * margin, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2 * margin) &
+                         cv::Rect({0, 0}, picture.size());
+    const cv::Mat part = with_shadow(picture(box), labels(box) == i, others, box.tl(), reach);
+    cv::Mat smaller, larger, largest, seen;
+    cv::erode(part, smaller, disc5());
+    cv::dilate(part, larger, disc5());
+    cv::dilate(larger, largest, disc5());
+    const cv::Mat inner = part & ~smaller, outer = largest & ~larger, second = behind(picture(box), larger, others, box.tl(), seen);
+    if (cv::countNonZero(inner & seen) < kRevealed * cv::countNonZero(inner)) continue;
+    const double kept = step_at_outline(picture(box), picture(box), inner, outer), other = step_at_outline(second, picture(box), inner, outer);
+    if (other < kSmoother * kept) second.copyTo(picture(box), larger);
   }
 }
 

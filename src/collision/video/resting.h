@@ -7,8 +7,9 @@
 
 namespace unseen::collision {
 
-/// Takes out of a median picture what rests in one place for most of a clip, such as a ball that is held at first or lies still at the
-/// end. Where some of the frames agree on a second colour, the one whose border does not stand out from its surroundings is kept.
+/// Takes out of a median picture what rests in one place for most of a clip, such as a ball that is held at first, lies still at the
+/// end, or is there until another hits it: colours that came or went once, whose border stands out from its surroundings, and what is behind them
+/// does not, as far as some frames show it.
 void remove_resting(const std::vector<cv::Mat>& frames, const cv::Mat& noise, cv::Mat& picture);
 
 }  // namespace unseen::collision

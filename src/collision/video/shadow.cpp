@@ -147,11 +147,12 @@ void keep_shaded_sides(const cv::Mat& frame, const cv::Mat& mask, const std::vec
 bool is_lit_ball(const cv::Mat& mask, const cv::Mat& shadow) {
   const int area = cv::countNonZero(mask);
   if (cv::countNonZero(mask & ~shadow) < kLitSide * area) return false;
-  std::vector<cv::Point> points;
+  std::vector<cv::Point> points, hull;
   cv::Point2f center;
   float radius = 0.0F;
   cv::findNonZero(mask, points);
-  cv::minEnclosingCircle(points, center, radius);
+  cv::convexHull(points, hull);  // minEnclosingCircle takes minutes of all points of a large part
+  cv::minEnclosingCircle(hull, center, radius);
   return area > kRound * kPi * (radius + 0.5) * (radius + 0.5);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/boxes/box_overlap.h"
 #include "cuboids/evaluate/evaluate_parts.h"
 
 namespace unseen::cuboids {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/boxes/box_overlap.h"
 #include "cuboids/evaluate/evaluate_parts.h"
 
 namespace unseen::cuboids {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/boxes/box_overlap.h"
 #include "cuboids/search/complete.h"
 #include "cuboids/search/trims.h"
 

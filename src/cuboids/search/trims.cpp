@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/boxes/box_overlap.h"
 #include "cuboids/search/problem.h"
 #include "unseen/cuboids/evaluate.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/clip_convex.h"
-#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/boxes/box_overlap.h"
 
 namespace unseen::cuboids {
 namespace {

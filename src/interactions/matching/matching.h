@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "interactions/ground/sight.h"
-#include "interactions/layout/placement_fit.h"
+#include "interactions/matching/placement_fit.h"
 #include "unseen/core/context.h"
 #include "unseen/interactions/scenelets.h"
 

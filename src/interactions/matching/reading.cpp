@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interactions/layout/shadow.h"
+#include "interactions/matching/shadow.h"
 
 namespace unseen::interactions {
 namespace {

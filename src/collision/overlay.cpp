@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "collision/evaluate/overlay_draw.h"
+#include "collision/overlay_draw.h"
 #include "io/clip.h"
 #include "io/codecs.h"
 #include "unseen/core/error.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "planes/patches/doubt.h"
+#include "planes/selection/doubt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kEnough = 10;      // tilts
+constexpr std::size_t kFewestTilts = 10;      // tilts
 constexpr std::size_t kFewestMembers = 3;  // of a frame that tells
 constexpr double kTelling = 0.1;         // of a tilt's variance: what is left where the frame follows it
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
@@ -72,7 +72,7 @@ void add_squares(const OrientationFrame& start, const std::vector<Vec3>& locals,
 
 /// The doubt that squares of deviations tell, each over what it would be at the systematic doubt, with an area.
 double doubt_of(std::vector<std::pair<double, double>> squares) {
-  if (squares.size() < kEnough) return 1.0;
+  if (squares.size() < kFewestTilts) return 1.0;
   const double safety = 2 + 4 / std::sqrt(static_cast<double>(squares.size()));
   return std::clamp(safety * std::sqrt(weighted_quantile(std::move(squares), kQuantile) / kUsual), kLeast, 1.0);
 }

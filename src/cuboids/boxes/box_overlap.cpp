@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "cuboids/evaluate/box_overlap.h"
+#include "cuboids/boxes/box_overlap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/evaluate/overlay_draw.h"
+#include "collision/overlay_draw.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-#include "collision/doubts/noise.h"
+#include "collision/solve/noise.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// Two balls whose sightings tell little of which is nearer to the camera when they meet: the impulse may point into the picture or out of it.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "collision/two_balls.h"
+
+namespace unseen::collision::test {
+namespace {
+
+/// Centres alone, 1 px of noise.
+Shot centres(double away, std::uint64_t seed) {
+  Shot shot = two_balls({.late = 0.4, .after = 28, .from = 4, .fps = 84, .along = {1, 0.2, away}, .noise = 1.0, .seed = seed});
+  for (Sighting& s : shot.observations) s.radius = 0;
+  return shot;
+}
+
+TEST(InFront, BothImpactsOfTwoBallsAreTriedAndCounted) {
+  for (const std::uint64_t seed : {2, 10}) {
+    Context context;
+    const Reconstruction r = reconstruct(centres(-0.3, seed), {}, context);
+    ASSERT_TRUE(r.restitution) << seed;
+    EXPECT_LE(r.restitution->low, kRestitution) << seed;
+    EXPECT_GE(r.restitution->high, kRestitution) << seed;
+    ASSERT_EQ(r.ambiguous.size(), 1u) << seed;
+    EXPECT_LE(r.restitution->low, r.ambiguous.front().restitution) << seed;
+    EXPECT_GT(std::abs(r.ambiguous.front().restitution - r.restitution->value), 0.05) << seed;
+  }
+}
+
+TEST(InFront, WhereSightingsTellThereIsOneSolution) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Context context;
+    EXPECT_TRUE(reconstruct(centres(0.3, seed), {}, context).ambiguous.empty()) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace unseen::collision::test
