@@ -126,7 +126,7 @@ void warn_of_dimmed(const Shot& shot, const Footage& footage, const Tracks& trac
     for (const TrackPoint& p : tracks.points)
       if (p.body == o && p.region >= 0) sum += footage.regions[static_cast<std::size_t>(p.frame)][static_cast<std::size_t>(p.region)].dimmed, ++count;
     if (sum > kMuch * count)
-      context.warn(fmt::format("{}: what is merely darker than the background beside it, {:.0f} % of its outline, is taken for its shadow; where that is its own shaded side the result is wrong. A background "
+      context.warn(fmt::format("{}: what is merely darker than the background beside it, {:.0f} % of what differs from that, is taken for its shadow; where that is its own shaded side the result is wrong. A background "
                                "of another colour, or with texture, tells them apart", shot.bodies[o].name, 100.0 * sum / count));
   }
 }

@@ -3,7 +3,6 @@
 // Two balls whose sightings tell little of which is nearer to the camera when they meet: the impulse may point into the picture or out of it.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "collision/two_balls.h"
@@ -11,8 +10,8 @@
 namespace unseen::collision::test {
 namespace {
 
-/// Centres alone, 1 px of noise.
-Shot centres(double away, std::uint64_t seed) {
+/// Centers alone, 1 px of noise.
+Shot centers(double away, std::uint64_t seed) {
   Shot shot = two_balls({.late = 0.4, .after = 28, .from = 4, .fps = 84, .along = {1, 0.2, away}, .noise = 1.0, .seed = seed});
   for (Sighting& s : shot.observations) s.radius = 0;
   return shot;
@@ -21,7 +20,7 @@ Shot centres(double away, std::uint64_t seed) {
 TEST(InFront, BothImpactsOfTwoBallsAreTriedAndCounted) {
   for (const std::uint64_t seed : {2, 10}) {
     Context context;
-    const Reconstruction r = reconstruct(centres(-0.3, seed), {}, context);
+    const Reconstruction r = reconstruct(centers(-0.3, seed), {}, context);
     ASSERT_TRUE(r.restitution) << seed;
     EXPECT_LE(r.restitution->low, kRestitution) << seed;
     EXPECT_GE(r.restitution->high, kRestitution) << seed;
@@ -34,7 +33,7 @@ TEST(InFront, BothImpactsOfTwoBallsAreTriedAndCounted) {
 TEST(InFront, WhereSightingsTellThereIsOneSolution) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Context context;
-    EXPECT_TRUE(reconstruct(centres(0.45, seed), {}, context).ambiguous.empty()) << seed;
+    EXPECT_TRUE(reconstruct(centers(0.45, seed), {}, context).ambiguous.empty()) << seed;
   }
 }
 

@@ -59,10 +59,8 @@ std::vector<Alternative> alternatives(const std::vector<Candidate>& candidates) 
         }))
       continue;
     known.push_back({c, m});
-    others.push_back({candidate.problem.fixed && candidate.problem.orientations.empty()
-                          ? fmt::format("another vertical explains the data alike: c = {:.2f}", c)
-                          : fmt::format("other turning explains the data alike: c = {:.2f}, mass ratio {:.2f}", c, m),
-                      c, m, 2.0 * excess});
+    const char* what = !candidate.problem.orientations.empty() ? "other turning" : candidate.problem.fixed ? "another vertical" : "the other one in front";
+    others.push_back({fmt::format("{} explains the data alike: c = {:.2f}", what, c) + (candidate.problem.fixed ? "" : fmt::format(", mass ratio {:.2f}", m)), c, m, 2.0 * excess});
   }
   return others;
 }

@@ -127,7 +127,7 @@ Background find_background(const std::vector<cv::Mat>& frames, const Context& co
   background.picture = median_picture(even, &deviation, context);
   restore_lasting(even, background.picture, deviation, context);
   background.noise = noise_of(deviation);
-  remove_resting(even, background.noise, background.picture);
+  remove_resting(even, background.noise, background.picture, context);
   return background;
 }
 

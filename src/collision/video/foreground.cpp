@@ -93,10 +93,9 @@ bool refine(const cv::Mat& frame, const Background& background, const cv::Mat& d
     const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
     cv::morphologyEx(lit, lit, cv::MORPH_OPEN, element, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
     cv::morphologyEx(lit, lit, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
-    const int left = cv::countNonZero(lit);
-    if (left > kCore * area) {
+    if (cv::countNonZero(lit) > kCore * area) {
+      if (shade.sign == ShadowSign::light) part.dimmed = static_cast<double>(cv::countNonZero(part.mask & shade.mask)) / area;
       part.mask = lit;
-      if (shade.sign == ShadowSign::light) part.dimmed = 1.0 - static_cast<double>(left) / area;
     }
   }
   sharpen_outline(part.mask, contrast);

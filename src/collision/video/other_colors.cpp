@@ -8,13 +8,13 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kOther = 20.0;       // grey levels, and
-constexpr double kOtherSigmas = 6.0;  // σ: farther from the median is another colour,
-constexpr double kOtherMost = 40.0;   // grey levels, whatever σ is: that of a place that is covered in half of the frames tells nothing
-constexpr double kShare = 0.04;       // of the frames that have to show it
-constexpr int kFewest = 2;            // frames
+constexpr float kOther = 20.0F;        // grey levels, and
+constexpr float kOtherSigmas = 6.0F;   // σ: farther from the median is another colour,
+constexpr float kOtherMost = 40.0F;    // grey levels, whatever σ is: that of a place that is covered in half of the frames tells nothing
+constexpr double kShare = 0.08;       // of the frames that have to show it
+constexpr int kFewest = 3;            // frames
 constexpr double kBetween = 0.1;      // of the frames of another colour: more of them between those of the median, and something only went past
-constexpr int kMostColors = 4;        // of a pixel
+constexpr int kFollowed = 6;          // colours of a pixel
 
 /// A pixel's colours other than the median's, as the frames come.
 class Colors {
@@ -29,7 +29,7 @@ class Colors {
   void add(const cv::Vec3f& color) {
     int i = 0;
     while (i < size_ && farthest(color, shown_[i].mean()) > kOther) ++i;
-    if (i == kMostColors) return;
+    if (i == kFollowed) return;
     size_ = std::max(size_, i + 1);
     shown_[i].sum += color;
     ++shown_[i].count, ++shown_[i].waiting;
@@ -53,33 +53,37 @@ class Colors {
     int between = 0;  ///< after a frame of the median's colour, and before another
     cv::Vec3f mean() const { return sum / std::max(1, count); }
   };
-  std::array<Shown, kMostColors> shown_;
+  std::array<Shown, kFollowed> shown_;
   int size_ = 0;
   bool median_seen_ = false;
 };
 
 }  // namespace
 
-OtherColors other_colors(const std::vector<cv::Mat>& frames, const cv::Mat& noise, const cv::Mat& median) {
+OtherColors other_colors(const std::vector<cv::Mat>& frames, const cv::Mat& noise, const cv::Mat& median, const Context& context) {
   const double fewest = std::max<double>(kFewest, kShare * static_cast<double>(frames.size()));
-  OtherColors others{cv::Mat(median.size(), CV_32S, cv::Scalar(-1)), {}, cv::Mat::zeros(median.size(), CV_8U)};
-  std::vector<Colors> row;
-  for (int y = 0; y < median.rows; ++y) {
-    row.assign(median.cols, {});
-    for (const cv::Mat& frame : frames)
+  OtherColors others{cv::Mat::zeros(median.size(), CV_8U), {}, cv::Mat::zeros(median.size(), CV_8U)};
+  for (cv::Mat& colors : others.colors) colors.create(median.size(), CV_8UC3);
+  parallel_blocks(context, static_cast<std::size_t>(median.rows), 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<Colors> row;
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      row.assign(static_cast<std::size_t>(median.cols), {});
+      for (const cv::Mat& frame : frames)
+        for (int x = 0; x < median.cols; ++x) {
+          const cv::Vec3f f = frame.at<cv::Vec3b>(y, x);
+          if (farthest(f, median.at<cv::Vec3b>(y, x)) > std::clamp(kOtherSigmas * noise.at<float>(y, x), kOther, kOtherMost)) row[static_cast<std::size_t>(x)].add(f);
+          else row[static_cast<std::size_t>(x)].add_median();
+        }
       for (int x = 0; x < median.cols; ++x) {
-        const cv::Vec3b &f = frame.at<cv::Vec3b>(y, x), &m = median.at<cv::Vec3b>(y, x);
-        if (farthest(f, m) > std::clamp(kOtherSigmas * noise.at<float>(y, x), kOther, kOtherMost)) row[x].add(f);
-        else row[x].add_median();
+        const Colors& colors = row[static_cast<std::size_t>(x)];
+        int count = 0;
+        for (const cv::Vec3b& color : colors.lasting(fewest))
+          if (count < OtherColors::kMost) others.colors[static_cast<std::size_t>(count++)].at<cv::Vec3b>(y, x) = color;
+        others.count.at<unsigned char>(y, x) = static_cast<unsigned char>(count);
+        if (colors.follow(fewest)) others.follow.at<unsigned char>(y, x) = 255;
       }
-    for (int x = 0; x < median.cols; ++x) {
-      std::vector<cv::Vec3b> colors = row[x].lasting(fewest);
-      if (colors.empty()) continue;
-      others.index.at<int>(y, x) = static_cast<int>(others.colors.size());
-      others.colors.push_back(std::move(colors));
-      if (row[x].follow(fewest)) others.follow.at<unsigned char>(y, x) = 255;
     }
-  }
+  });
   return others;
 }
 

@@ -14,12 +14,12 @@ namespace {
 constexpr double kLike = 25.0;      // grey levels off what is around: still its colour
 constexpr double kDarkest = 8.0, kShade = 0.1;  // grey levels, and share of the light: darker than that is in shadow
 constexpr double kUnlike = 10.0;    // grey levels off it, beside what is farther off: of the same body or its shadow
-constexpr double kReach = 1.0;      // so far beside it, in square roots of its area
+constexpr double kBeside = 1.0;     // so far beside it, in square roots of its area
 constexpr double kRevealed = 0.25;  // of a part's border: so much of what is behind it has to be seen
 constexpr double kSmoother = 0.6;   // what is behind: its step at the outline, as a share of that of the median
 constexpr int kSmallest = 30;       // px
 constexpr int kMargin = 12;         // px, of what is looked at around a part
-constexpr int kAround = 3;          // px, that a hole is filled from
+constexpr int kFilledFrom = 3;      // px, that a hole is filled from
 
 cv::Mat disc5() { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}); }
 
@@ -33,7 +33,7 @@ cv::Mat filled(const cv::Mat& picture, const cv::Mat& hole) {
     cv::findNonZero(next & ~known, rim);
     if (rim.empty()) return fill;
     for (const cv::Point& at : rim) {
-      const cv::Rect near = cv::Rect(at.x - kAround, at.y - kAround, 2 * kAround + 1, 2 * kAround + 1) & cv::Rect({0, 0}, picture.size());
+      const cv::Rect near = cv::Rect(at.x - kFilledFrom, at.y - kFilledFrom, 2 * kFilledFrom + 1, 2 * kFilledFrom + 1) & cv::Rect({0, 0}, picture.size());
       const cv::Scalar mean = cv::mean(fill(near), known(near));
       fill.at<cv::Vec3f>(at) = cv::Vec3f(static_cast<float>(mean[0]), static_cast<float>(mean[1]), static_cast<float>(mean[2]));
     }
@@ -59,6 +59,7 @@ cv::Mat surroundings(const cv::Mat& picture, const cv::Mat& hole) {
 std::vector<cv::Vec3b> texture_around(const cv::Mat& picture, const cv::Mat& hole) {
   constexpr int kWindow = 15;         // px
   constexpr double kTextured = 0.03;  // of what is around
+  constexpr std::size_t kEnough = 1000;
   cv::Mat ring, known, weight, sum, weights;
   cv::dilate(hole, ring, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kMargin + 1, 2 * kMargin + 1}));
   cv::Mat(~hole).convertTo(weight, CV_32F, 1.0 / 255.0);
@@ -74,8 +75,11 @@ std::vector<cv::Vec3b> texture_around(const cv::Mat& picture, const cv::Mat& hol
       colors.push_back(picture.at<cv::Vec3b>(y, x));
       unlike += !is_like(colors.back(), sum.at<cv::Vec3f>(y, x) / weights.at<float>(y, x));
     }
-  if (unlike <= kTextured * static_cast<double>(colors.size())) colors.clear();
-  return colors;
+  if (unlike <= kTextured * static_cast<double>(colors.size())) return {};
+  const std::size_t step = 1 + colors.size() / kEnough;
+  std::vector<cv::Vec3b> some;
+  for (std::size_t i = 0; i < colors.size(); i += step) some.push_back(colors[i]);
+  return some;
 }
 
 /// Whether more than a few of the colours are this one.
@@ -85,7 +89,7 @@ bool is_among(const std::vector<cv::Vec3b>& colors, const cv::Vec3b& color) {
   return static_cast<double>(same) > kFew * static_cast<double>(colors.size());
 }
 
-/// Where the picture is unlike what is around all of `places`: where a body comes to rest beside one that was there before, it is right.
+/// Where the picture is unlike what is around all of `places`: where a body comes to rest beside one that was there before, the picture is right.
 cv::Mat standing_out(const cv::Mat& picture, const cv::Mat& places) {
   const cv::Mat fill = surroundings(picture, places);
   cv::Mat out = cv::Mat::zeros(picture.size(), CV_8U);
@@ -97,9 +101,9 @@ cv::Mat standing_out(const cv::Mat& picture, const cv::Mat& places) {
 
 /// A part with its shadow: what is beside it, unlike its surroundings, and was like them in other frames.
 cv::Mat with_shadow(const cv::Mat& picture, const cv::Mat& part, const OtherColors& others, const cv::Point& corner, int reach) {
-  cv::Mat near, whole = part.clone();
-  cv::dilate(part, near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * reach + 1, 2 * reach + 1}));
-  near &= others.index(cv::Rect(corner, part.size())) >= 0;
+  cv::Mat distance, near, whole = part.clone();
+  cv::distanceTransform(~part, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  near = (distance <= reach) & (others.count(cv::Rect(corner, part.size())) > 0);
   const cv::Mat fill = surroundings(picture, part | near);
   for (int y = 0; y < part.rows; ++y)
     for (int x = 0; x < part.cols; ++x) {
@@ -112,7 +116,7 @@ cv::Mat with_shadow(const cv::Mat& picture, const cv::Mat& part, const OtherColo
   return whole;
 }
 
-/// What lies behind a part: the other colour that is most like what is around it, or the only one if it is of a texture there; or else what is around it.
+/// What lies behind a part: the other colour that is most like what is around it, if it may be that or is of a texture there; or else what is around it.
 /// `seen` is 255 where it is such a colour.
 cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& others, const cv::Point& corner, cv::Mat& seen) {
   const cv::Mat fill = surroundings(picture, part);
@@ -124,7 +128,7 @@ cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& o
       if (!part.at<unsigned char>(y, x)) continue;
       const cv::Vec3f& expected = fill.at<cv::Vec3f>(y, x);
       std::vector<cv::Vec3b> colors = others.at(corner + cv::Point(x, y));
-      if (colors.size() != 1 || !is_among(texture, colors.front())) std::erase_if(colors, [&](const cv::Vec3b& c) { return !is_like(c, expected); });
+      std::erase_if(colors, [&](const cv::Vec3b& c) { return !is_like(c, expected) && !is_among(texture, c); });
       const auto nearest = std::min_element(colors.begin(), colors.end(), [&](const cv::Vec3b& a, const cv::Vec3b& b) { return farthest(a, expected) < farthest(b, expected); });
       second.at<cv::Vec3b>(y, x) = nearest == colors.end() ? cv::Vec3b(expected) : *nearest;
       if (nearest != colors.end()) seen.at<unsigned char>(y, x) = 255;
@@ -160,17 +164,18 @@ double step_at_outline(const cv::Mat& inside, const cv::Mat& outside, const cv::
 
 }  // namespace
 
-void remove_resting(const std::vector<cv::Mat>& frames, const cv::Mat& noise, cv::Mat& picture) {
-  const OtherColors others = other_colors(frames, noise, picture);
-  cv::Mat came, labels, stats, centers;
-  cv::morphologyEx(others.follow, came, cv::MORPH_CLOSE, disc5());
-  cv::morphologyEx(came, came, cv::MORPH_OPEN, disc5());
-  came = standing_out(picture, came);
-  cv::morphologyEx(came, came, cv::MORPH_OPEN, disc5());
-  const int count = cv::connectedComponentsWithStats(came, labels, stats, centers, 8);
+void remove_resting(const std::vector<cv::Mat>& frames, const cv::Mat& noise, cv::Mat& picture, const Context& context) {
+  const OtherColors others = other_colors(frames, noise, picture, context);
+  cv::Mat came_or_went, labels, stats, centers;
+  cv::morphologyEx(others.follow, came_or_went, cv::MORPH_CLOSE, disc5());
+  cv::morphologyEx(came_or_went, came_or_went, cv::MORPH_OPEN, disc5());
+  came_or_went = standing_out(picture, came_or_went);
+  cv::morphologyEx(came_or_went, came_or_went, cv::MORPH_OPEN, disc5());
+  const int count = cv::connectedComponentsWithStats(came_or_went, labels, stats, centers, 8);
   for (int i = 1; i < count; ++i) {
-    const int area = stats.at<int>(i, cv::CC_STAT_AREA), reach = cvRound(kReach * std::sqrt(area)), margin = reach + kMargin;
+    const int area = stats.at<int>(i, cv::CC_STAT_AREA), reach = cvRound(kBeside * std::sqrt(area)), margin = reach + kMargin;
     if (area < kSmallest) continue;
+    context.check();
     const cv::Rect box = cv::Rect(stats.at<int>(i, cv::CC_STAT_LEFT) - margin, stats.at<int>(i, cv::CC_STAT_TOP) - margin,
                                   stats.at<int>(i, cv::CC_STAT_WIDTH) + 2 * margin, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2 * margin) &
                          cv::Rect({0, 0}, picture.size());

@@ -11,7 +11,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kFewestTilts = 10;      // tilts
+constexpr std::size_t kFewestTilts = 10;
 constexpr std::size_t kFewestMembers = 3;  // of a frame that tells
 constexpr double kTelling = 0.1;         // of a tilt's variance: what is left where the frame follows it
 constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that does not hide it
