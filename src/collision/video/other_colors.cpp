@@ -8,9 +8,9 @@
 namespace unseen::collision {
 namespace {
 
-constexpr float kOther = 20.0F;        // grey levels, and
-constexpr float kOtherSigmas = 6.0F;   // σ: farther from the median is another colour,
-constexpr float kOtherMost = 40.0F;    // grey levels, whatever σ is: that of a place that is covered in half of the frames tells nothing
+constexpr float kOther = 20.0F;       // grey levels, and
+constexpr float kOtherSigmas = 6.0F;  // σ: farther from the median is another colour,
+constexpr float kOtherMost = 40.0F;   // grey levels, whatever σ is: that of a place that is covered in half of the frames tells nothing
 constexpr double kShare = 0.08;       // of the frames that have to show it
 constexpr int kFewest = 3;            // frames
 constexpr double kBetween = 0.1;      // of the frames of another colour: more of them between those of the median, and something only went past
