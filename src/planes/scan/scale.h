@@ -3,7 +3,7 @@
 #pragma once
 
 #include "planes/scan/moments.h"
-#include "planes/scan/voxels.h"
+#include "planes/scan/voxel_builder.h"
 #include "unseen/core/context.h"
 #include "unseen/core/point_cloud.h"
 #include "unseen/planes/options.h"
