@@ -58,8 +58,9 @@ void refit_held(Model& model, double tolerance, const Space& space);
 /// noise; true if there are any.
 bool relate_again(Model& model, const AngleSet& angles, const Space& space);
 
-/// Replaces a surface's moments, e.g. by those of the points assigned to it; its variances are scaled along.
-void update_support(Surface& surface, const Moments& moments, const Space& space);
+/// Replaces a surface's moments, e.g. by those of the points assigned to it; its variances are scaled along, but noise counts as no less than
+/// `least_noise` (m): of an image, whole strokes lie exactly in a row of pixels.
+void update_support(Surface& surface, const Moments& moments, const Space& space, double least_noise);
 
 /// Variances (rad²) of a surface's tilts along u and v in refits.
 std::pair<double, double> tilt_variances(const Patch& support);

@@ -165,7 +165,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       sums[p] = points.moments(p);
       on_surface[model.parts[p].surface] += sums[p];
     }
-    for (std::size_t s = 0; s < on_surface.size(); ++s) update_support(model.surfaces[s], on_surface[s], space);
+    for (std::size_t s = 0; s < on_surface.size(); ++s) update_support(model.surfaces[s], on_surface[s], space, patches.least_noise);
     refit_held(model, tolerance, space);
     if (relate_again(model, angles, space)) refit_held(model, tolerance, space);
     update_planes(reach, model);

@@ -203,6 +203,39 @@ TEST(Drawings, LinesWithoutAnyNoise) {
   EXPECT_EQ(r.result.frames.size(), 1u);
 }
 
+/// The pixels of a frame of four long lines and of `dashes` short ones, all turned by `turn` (deg).
+PointCloud scanned_plan(double turn, int dashes) {
+  const Vec3 along(std::cos(radians(turn)), std::sin(radians(turn)), 0), up(-along.y(), along.x(), 0);
+  PointCloud cloud;
+  const auto line = [&](double x, double y, const Vec3& direction, int length) {
+    const Vec3 from = x * along + y * up;
+    for (int i = 0; i < length; ++i) {
+      const Vec3 at = from + i * direction;
+      cloud.positions.emplace_back(std::round(at.x()), std::round(at.y()), 0);
+    }
+  };
+  for (const double y : {0.0, 500.0}) line(0, y, along, 700);
+  for (const double x : {0.0, 700.0}) line(x, 0, up, 500);
+  for (int i = 0; i < dashes; ++i) line(40 + 80 * (i % 8), 40 + 60 * (i / 8), i % 2 ? along : up, 9);
+  return cloud;
+}
+
+/// Short strokes lie in one row of pixels each, without any noise: they know their direction no better for it.
+TEST(Drawings, ShortStrokesDoNotLevelAScannedPlan) {
+  for (const double turn : {0.7, 2.2}) {
+    SCOPED_TRACE(turn);
+    const test::Run r = test::run(scanned_plan(turn, 64), test::with_scale(2.5));
+    int lines = 0;
+    for (const ArrangedPlane& p : r.result.planes) {
+      if (p.area < 300) continue;
+      ++lines;
+      const Vec3& n = p.plane.normal;
+      EXPECT_NEAR(std::remainder(degrees(std::atan2(n.y(), n.x())) - turn, 90.0), 0.0, 0.02);
+    }
+    EXPECT_EQ(lines, 4);
+  }
+}
+
 /// Points of a drawing in a plane other than z = 0 are noticed, and the lines lie in it.
 TEST(Drawings, AnyCoordinatePlaneWillDo) {
   SynthOptions synth;

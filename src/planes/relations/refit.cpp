@@ -151,11 +151,11 @@ void refit(Model& model) {
   for (Surface& s : model.surfaces) s.offset = model.normal(s).dot(s.support.moments.mean);
 }
 
-void update_support(Surface& surface, const Moments& moments, const Space& space) {
+void update_support(Surface& surface, const Moments& moments, const Space& space, double least_noise) {
   Patch& s = surface.support;
   if (moments.count < kEnough * s.moments.count) return;
-  const auto plain = [](const PlaneFit& fit, double spread, double count) {
-    return fit.rms * fit.rms / std::max(count * spread * spread, 1e-300);
+  const auto plain = [&](const PlaneFit& fit, double spread, double count) {
+    return std::pow(std::max(fit.rms, least_noise), 2) / std::max(count * spread * spread, 1e-300);
   };
   const double inflate_u = s.variance_u / std::max(plain(s.fit, s.fit.spread_u, s.moments.count), 1e-300);
   const double inflate_v = s.variance_v / std::max(plain(s.fit, s.fit.spread_v, s.moments.count), 1e-300);
