@@ -12,25 +12,34 @@
 namespace unseen::planes {
 namespace {
 
-/// The cut of a strip along x whose height is that of `profile`: where the voxels of its sides lie, dm, ascending.
-std::pair<std::vector<int>, std::vector<int>> cut_of_strip(const std::function<double(double)>& profile) {
+/// A plane of 12 m by 4 m whose height is that of `profile`, with this noise, m.
+VoxelGrid strip(const std::function<double(double, double)>& profile, double noise) {
   PointCloud cloud;
   Random random(2);
   for (int i = 0; i < 20000; ++i) {
-    const double x = random.uniform(0, 12);
-    cloud.positions.push_back({x, random.uniform(0, 4), profile(x) + 0.005 * random.normal()});
+    const double x = random.uniform(0, 12), y = random.uniform(0, 4);
+    cloud.positions.push_back({x, y, profile(x, y) + noise * random.normal()});
   }
-  VoxelBuilder builder(0.1);
-  builder.add(cloud);
-  const VoxelGrid grid(builder);
+  return test::grid_of(cloud, 0.1);
+}
+
+CellSets pieces_of(const VoxelGrid& grid) {
   std::vector<int> region(grid.size());
   std::iota(region.begin(), region.end(), 0);
-  auto sides = best_cut(grid, {}, region);
-  for (std::vector<int>* side : {&sides.first, &sides.second}) {
-    for (int& voxel : *side) voxel = static_cast<int>(std::lround(10 * grid.moments[voxel].mean.x()));
-    std::sort(side->begin(), side->end());
+  return best_cut(grid, {}, region);
+}
+
+/// The cut of a strip along x: where the voxels of its two sides lie, dm, ascending.
+std::pair<std::vector<int>, std::vector<int>> cut_of_strip(const std::function<double(double)>& profile) {
+  const VoxelGrid grid = strip([&](double x, double) { return profile(x); }, 0.005);
+  CellSets sides = pieces_of(grid);
+  if (sides.empty()) return {};
+  for (std::vector<int>& side : sides) {
+    for (int& voxel : side) voxel = static_cast<int>(std::lround(10 * grid.moments[voxel].mean.x()));
+    std::sort(side.begin(), side.end());
   }
-  return sides;
+  EXPECT_EQ(sides.size(), 2u);
+  return {sides[0], sides[1]};
 }
 
 /// 4 m up and 4 m down again, by a share `amount`.
@@ -71,6 +80,29 @@ TEST(Cuts, NoiseAndGentleWavesAreNotCut) {
   EXPECT_TRUE(cut_of_strip([](double) { return 0.0; }).first.empty());
   EXPECT_TRUE(cut_of_strip([](double x) { return zigzag(x, 0.008); }).first.empty()) << "bends of 0.9°";
   EXPECT_TRUE(cut_of_strip([](double x) { return 0.02 * std::sin(2.0 * kPi * x / 4.0); }).first.empty()) << "2 cm, at a tolerance of 20";
+}
+
+/// Whether (x, y) is on one of two panels of a roof, 6 m and 2 m long.
+bool on_panel(double x, double y) { return y > 0.7 && y < 2.8 && ((x > 0.6 && x < 6.6) || (x > 8.5 && x < 10.5)); }
+
+// No straight line parts panels from the roof around them; and one plane of both is tilted, as they do not lie in its middle.
+TEST(Cuts, PanelsOnARoofAreIslands) {
+  const VoxelGrid grid = strip([](double x, double y) { return on_panel(x, y) ? 0.12 : 0.0; }, 0.016);
+  CellSets pieces = pieces_of(grid);
+  ASSERT_EQ(pieces.size(), 3u);
+  std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Moments sum = sum_of(grid, pieces[k]);
+    EXPECT_NEAR(sum.mean.z(), k == 0 ? 0.0 : 0.12, 0.005);
+    EXPECT_LT(line_angle(fit_plane(sum, {}).normal, Vec3::UnitZ()), radians(0.2));
+  }
+}
+
+TEST(Cuts, WhatIsRoughHasNoIslands) {
+  EXPECT_TRUE(pieces_of(strip([](double, double) { return 0.0; }, 0.08)).empty());
+  EXPECT_TRUE(pieces_of(strip([](double x, double y) { return on_panel(x, y) ? 0.06 : 0.0; }, 0.03)).empty()) << "two standard deviations";
+  Random random(3);  // one point in ten lies higher, anywhere
+  EXPECT_TRUE(pieces_of(strip([&](double, double) { return random.uniform() < 0.1 ? 0.15 : 0.0; }, 0.01)).empty());
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <span>
 
+#include "planes/patches/islands.h"
+
 namespace unseen::planes {
 namespace {
 
@@ -178,7 +180,7 @@ Cut best_within(const std::vector<Moments>& slice, const VoxelGrid& grid, const 
 
 }  // namespace
 
-std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
+CellSets best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
   const Moments whole = sum_of(grid, region);
   const PlaneFit fit = fit_plane(whole, space);
   const bool large = region.size() >= kShallowCells;
@@ -198,6 +200,8 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
   const Slices* of_best = nullptr;
   for (const Slices& along : slices)
     if (const Cut cut = best_single(along.sum, grid, space, best.error, shallow, shallow); cut.at > 0) best = cut, of_best = &along;
+  if (large && !space.is_2d())
+    if (Islands islands = islands_in(grid, region, whole, fit); !islands.pieces.empty() && islands.error < best.error) return std::move(islands.pieces);
   if (of_best == nullptr && large && !space.is_2d()) {
     best = {};
     bool too_many = false;
@@ -212,9 +216,9 @@ std::pair<std::vector<int>, std::vector<int>> best_cut(const VoxelGrid& grid, co
         if (const Cut cut = best_within(along.sum, grid, space); cut.at > 0 && cut.error < best.error) best = cut, of_best = &along;
     }
   }
-  std::pair<std::vector<int>, std::vector<int>> sides;
-  if (of_best != nullptr)
-    for (std::size_t i = 0; i < region.size(); ++i) (of_best->of_voxel[i] < best.at ? sides.first : sides.second).push_back(region[i]);
+  if (of_best == nullptr) return {};
+  CellSets sides(2);
+  for (std::size_t i = 0; i < region.size(); ++i) sides[of_best->of_voxel[i] < best.at ? 0 : 1].push_back(region[i]);
   return sides;
 }
 

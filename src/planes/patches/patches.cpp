@@ -96,12 +96,12 @@ double relief_variance(const Cells& surface, const Patch& patch, const std::vect
   return clear && few_steps && std::abs(tilt) > scatter ? tilt * tilt : 0.0;
 }
 
-/// Half the median rms of regions.
-double half_typical_noise(const VoxelGrid& grid, const Space& space, const CellSets& regions) {
+/// Half the median rms of regions, and no less than rounding leaves.
+double least_noise_of(const VoxelGrid& grid, const Space& space, const CellSets& regions) {
   if (regions.empty()) return 0.0;
   std::vector<double> rms;
   for (const std::vector<int>& region : regions) rms.push_back(fit_plane(sum_of(grid, region), space).rms);
-  return 0.5 * median(std::move(rms));
+  return std::max(0.5 * median(std::move(rms)), grid.rounding / std::sqrt(12.0));
 }
 
 using Pairs = std::vector<std::pair<int, int>>;
@@ -215,7 +215,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   regions = drop_strays(grid, space, std::move(regions), context);
 
   Patches result;
-  result.least_noise = half_typical_noise(grid, space, regions);
+  result.least_noise = least_noise_of(grid, space, regions);
   result.patches.resize(regions.size());
   parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r)

@@ -76,20 +76,18 @@ Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells) {
 CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context, const CellSets& uncut) {
   CellSets result;
   while (!regions.empty()) {
-    std::vector<std::pair<std::vector<int>, std::vector<int>>> cuts(regions.size());
+    std::vector<CellSets> cuts(regions.size());
     parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r)
         if (regions[r].size() >= kSplitCells && !std::binary_search(uncut.begin(), uncut.end(), regions[r])) cuts[r] = best_cut(grid, space, regions[r]);
     });
     CellSets parts;
     for (std::size_t r = 0; r < regions.size(); ++r) {
-      auto& [a, b] = cuts[r];
-      if (a.empty()) {
+      if (cuts[r].empty()) {
         std::sort(regions[r].begin(), regions[r].end());
         result.push_back(std::move(regions[r]));
       } else {
-        parts.push_back(std::move(a));
-        parts.push_back(std::move(b));
+        std::move(cuts[r].begin(), cuts[r].end(), std::back_inserter(parts));
       }
     }
     regions = std::move(parts);

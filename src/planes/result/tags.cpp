@@ -47,7 +47,7 @@ Votes votes_for(const Vec3& up, const Arrangement& result) {
     if (line_angle(n, up) > kPi / 2 - kPlumb) walls += p.area * across * across.transpose();
     if (line_angle(n, up) < kLevel) votes.level += p.area;
   }
-  votes.plumb = symmetric_eigen(walls).values[0];
+  votes.plumb = std::max(0.0, symmetric_eigen(walls).values[0]);  // of walls all alike it may come out below
   return votes;
 }
 
