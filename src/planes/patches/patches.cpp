@@ -15,6 +15,7 @@
 namespace unseen::planes {
 namespace {
 
+constexpr double kDithered = 0.6;  // of a step of the coordinates: noise that hides it, with what rounding adds
 constexpr double kSystematicTilt = 0.5 * kPi / 180.0;  // rad: registration, calibration, walls out of plumb
 constexpr double kLargestShift = 0.15;  // of the tolerance, of points one standard deviation from the centre
 constexpr double kToleranceShare = 0.03;  // of the tolerance: rims and clutter pull a patch's edge by as much,
@@ -94,6 +95,16 @@ double relief_variance(const Cells& surface, const Patch& patch, const std::vect
   const bool clear = tilt * tilt > kClearly * kClearly * (variance + error * error + kRims * kRims);
   const bool few_steps = std::abs(tilt) * spread < kLevels * patch.fit.rms;
   return clear && few_steps && std::abs(tilt) > scatter ? tilt * tilt : 0.0;
+}
+
+/// Variance (rad²) of a tilt along `axis` that rounded coordinates leave: a surface that rises by less than a step between its ends is level
+/// to them, and each step that it passes says where it is (as of a uniform error of a step over its length).
+double rounding_variance(const PlaneFit& fit, const Vec3& axis, double spread, double rounding) {
+  if (!(rounding > 0.0)) return 0.0;
+  int across = 0;
+  fit.normal.cwiseAbs().maxCoeff(&across);
+  const double length = std::sqrt(12.0) * std::max(spread, 1e-300), steps = std::abs(axis[across]) * length / rounding;
+  return std::pow(rounding / (length * (1.0 + steps)), 2) / 3.0;
 }
 
 /// Half the median rms of regions, and no less than rounding leaves.
@@ -185,7 +196,12 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.area = std::sqrt(12.0) * fit.spread_u * (space.is_2d() ? 1.0 : std::sqrt(12.0) * fit.spread_v);
   patch.variance_u = tilt_variance(grid, patch, core, fit.u, fit.spread_u, least_noise);
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, core, fit.v, fit.spread_v, least_noise);
-  if (!surface.normal.empty() && !space.is_2d()) {
+  if (space.is_2d()) {
+    patch.variance_u += rounding_variance(fit, fit.u, fit.spread_u, grid.rounding);
+  } else if (fit.rms < kDithered * grid.rounding) {
+    patch.variance_u += rounding_variance(fit, fit.u, fit.spread_u, grid.rounding);
+    patch.variance_v += rounding_variance(fit, fit.v, fit.spread_v, grid.rounding);
+  } else if (!surface.normal.empty()) {  // those of points on a raster follow its axes
     patch.variance_u += relief_variance(surface, patch, core, fit.u, fit.spread_u, patch.variance_u);
     patch.variance_v += relief_variance(surface, patch, core, fit.v, fit.spread_v, patch.variance_v);
   }
