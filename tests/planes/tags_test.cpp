@@ -97,6 +97,37 @@ TEST(Tags, OfARoadWithACrownAndOfALonePlane) {
   EXPECT_EQ(tags(ground), std::vector<std::string>{"floor"});
 }
 
+/// A facade, a street before it and a crate that lies askew, turned about the vertical.
+Arrangement facade(double yaw, double crate) {
+  const Eigen::AngleAxisd turn(yaw, Vec3::UnitZ());
+  const Eigen::AngleAxisd askew(crate, Vec3(1, 2, 0).normalized());
+  Arrangement all;
+  add(all, turn * Vec3(0, 0, 0), turn * Vec3(14, 0, 0), turn * Vec3(0, 0, 9));
+  add(all, turn * Vec3(-3, -14, 0), turn * Vec3(20, 0, 0), turn * Vec3(0, 14, 0));
+  const Vec3 x = turn * (askew * Vec3(0.8, 0, 0)), y = turn * (askew * Vec3(0, 0.8, 0)), z = turn * (askew * Vec3(0, 0, 0.8)), at = turn * Vec3(5, -5, 0);
+  for (const auto& [a, b] : {std::pair(x, y), {x, z}, {y, z}}) add(all, at, a, b);
+  return all;
+}
+
+TEST(Tags, OfAFacadeAlone) {
+  for (int i = 0; i < 60; ++i)
+    for (const double crate : {0.0, 9.0}) {
+      const std::vector<std::string> found = tags(facade(radians(1.5 * i), radians(crate)));
+      EXPECT_EQ(found[0], "wall") << i << " " << crate;
+      EXPECT_EQ(found[1], "floor") << i << " " << crate;
+    }
+}
+
+TEST(Tags, AGhostBelowTheFloorTakesNothingFromIt) {
+  Arrangement all;
+  add_storey(all, 0.0);
+  add(all, {3, 3, -1.4}, Vec3(0.5, 0, 0), Vec3(0, 0.3, 0));
+  add(all, {4, 3, 4.1}, Vec3(0.5, 0, 0), Vec3(0, 0.3, 0));
+  std::vector<std::string> expected = kStorey;
+  expected.insert(expected.end(), {"horizontal", "horizontal"});
+  EXPECT_EQ(tags(all), expected);
+}
+
 TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
   Arrangement all;
   for (int i = 0; i < 12; ++i) add(all, {0.28 * i, 0, 0.17 * i}, Vec3(0.3, 0, 0), Vec3(0, 1, 0));

@@ -23,6 +23,9 @@ constexpr double kRoomy = 0.04;   // of the largest level plane's width: where a
 constexpr double kNarrow = 0.1;   // of the room's height: what is narrower in the mean is a post, or a seam
 constexpr double kPlumb = 0.5 * kPi / 180.0;  // a wall that leans by more does not speak for a vertical
 constexpr double kSpeak = 0.5;    // of the most area of walls that speak for one: as much speaks for another as well
+constexpr double kSteep = 75 * kPi / 180.0;  // from a direction: walls, plumb along it or not
+constexpr double kSomeWalls = 0.05;  // of the area of these: what is less speaks for nothing, as a crate that lies askew before a facade
+constexpr double kSliver = 0.02;  // of the largest level plane's area: what is smaller, as ghosts of a mirror below a floor, ends no scene
 constexpr std::size_t kMostUps = 20;  // directions with the most area that may be the vertical
 
 /// What a plane's outline reaches, along two level axes and upward.
@@ -41,13 +44,15 @@ Votes votes_for(const Vec3& up, const Arrangement& result) {
   const Vec3 u = any_orthogonal(up), v = up.cross(u);
   Eigen::Matrix2d walls = Eigen::Matrix2d::Zero();
   Votes votes;
+  double steep = 0;
   for (const ArrangedPlane& p : result.planes) {
     const Vec3& n = p.plane.normal;
     const Eigen::Vector2d across(n.dot(u), n.dot(v));
     if (line_angle(n, up) > kPi / 2 - kPlumb) walls += p.area * across * across.transpose();
     if (line_angle(n, up) < kLevel) votes.level += p.area;
+    if (line_angle(n, up) > kSteep) steep += p.area;
   }
-  votes.plumb = std::max(0.0, symmetric_eigen(walls).values[0]);  // of walls all alike it may come out below
+  if (const double across = symmetric_eigen(walls).values[0]; across > kSomeWalls * steep) votes.plumb = across;
   return votes;
 }
 
@@ -125,12 +130,16 @@ void tag_planes(Arrangement& result) {
   Mat3 axes;
   axes << u, up.cross(u), up;
   std::vector<Bounds> bounds;
-  double low = kNowhere, high = -kNowhere, largest = 0;
+  double largest = 0;
   for (const ArrangedPlane& p : result.planes) {
     bounds.push_back(bounds_of(p, axes));
-    low = std::min(low, bounds.back().low.z());
-    high = std::max(high, bounds.back().high.z());
     if (line_angle(p.plane.normal, up) < kLevel) largest = std::max(largest, p.area);
+  }
+  double low = kNowhere, high = -kNowhere;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (result.planes[i].area < kSliver * largest) continue;
+    low = std::min(low, bounds[i].low.z());
+    high = std::max(high, bounds[i].high.z());
   }
   std::vector<std::size_t> levels;
   for (std::size_t i = 0; i < result.planes.size(); ++i)
