@@ -9,6 +9,7 @@
 #include "io/readers.h"
 #include "io/text.h"
 #include "unseen/core/error.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::io {
 namespace {
@@ -17,7 +18,10 @@ constexpr double kMostlyDark = 0.7;   // of the pixels
 constexpr double kBroad = 0.015;      // of the picture's shorter side: 3 mm of A4
 constexpr int kLeastBroad = 12;       // pixels
 constexpr double kMuch = 0.3, kAll = 0.99;  // of the dark pixels
-constexpr double kFaint = 0.6, kManyFaint = 0.35;  // of the dark pixels; an anti-aliased line one pixel wide has half as many
+constexpr double kFaint = 0.6, kManyFaint = 0.35;  // of white; of the dark pixels: an anti-aliased line one pixel wide has half as many
+constexpr double kPaper = 0.9;        // of the pixels are no brighter than paper, but for glare;
+constexpr double kBlack = 0.25, kGrey = 0.75;  // of white: what is darker is no paper; darker paper is a photograph's
+constexpr double kRim = 1.5;          // pixels, of an area's outline
 
 /// Brightness of each pixel in [0,1], over white where the image is transparent.
 cv::Mat brightness(cv::Mat image) {
@@ -38,16 +42,49 @@ cv::Mat brightness(cv::Mat image) {
   return grey.mul(alpha) + (1.0 - alpha);
 }
 
-/// True if most pixels are dark, but not all: light lines on a dark ground.
+/// The brightness that a share of the pixels does not exceed, from a million of them.
+double brightness_of(double share, const cv::Mat& grey) {
+  constexpr std::size_t kTelling = 1'000'000;
+  const std::size_t every = grey.total() / kTelling + 1;
+  std::vector<float> values;
+  for (std::size_t i = 0; i < grey.total(); i += every) values.push_back(grey.at<float>(static_cast<int>(i / grey.cols), static_cast<int>(i % grey.cols)));
+  return quantile(std::move(values), share);
+}
+
+/// What counts as white: in photographs paper is grey.
+double white_of(const cv::Mat& grey) {
+  const double paper = brightness_of(kPaper, grey);
+  return paper < kBlack ? 1.0 : std::min(1.0, paper / kGrey);
+}
+
+/// Width (pixels) from which what is dark is an area, and no line.
+int broad_in(const cv::Mat& picture) { return std::max(kLeastBroad, static_cast<int>(kBroad * std::min(picture.rows, picture.cols))); }
+
+/// The insides of broad dark areas, as walls that are filled: 255 where they are. Lines go along their outlines.
+cv::Mat insides(const cv::Mat& dark) {
+  const double half = 0.5 * broad_in(dark);
+  cv::Mat framed, depth, from_core;
+  cv::copyMakeBorder(dark, framed, 1, 1, 1, 1, cv::BORDER_REPLICATE);
+  cv::distanceTransform(framed, depth, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  depth = depth(cv::Rect(1, 1, dark.cols, dark.rows));
+  const cv::Mat core = depth > half;
+  if (cv::countNonZero(core) == 0 || cv::countNonZero(~dark) == 0) return cv::Mat::zeros(dark.size(), CV_8U);
+  cv::distanceTransform(~core, from_core, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  return (from_core <= std::sqrt(2.0) * half) & (depth > kRim);  // as far as into corners
+}
+
+/// True if most pixels are dark, but not all, and the others lighter: light lines on a dark ground.
 bool is_inverted(const cv::Mat& grey, double threshold) {
   const auto dark = static_cast<std::size_t>(cv::countNonZero(grey < threshold));
-  return dark < grey.total() && static_cast<double>(dark) > kMostlyDark * static_cast<double>(grey.total());
+  if (dark == grey.total() || static_cast<double>(dark) <= kMostlyDark * static_cast<double>(grey.total())) return false;
+  const cv::Mat off = grey - brightness_of(0.5, grey);
+  return cv::sum(off.mul(off).mul(off))[0] > 0.0;
 }
 
 /// Broad dark areas that touch the picture's border, as a scanner's lid or a table around the sheet leaves them, if they are much of what is dark: 255 where
 /// they are. Walls are narrower.
 cv::Mat surroundings(const cv::Mat& dark) {
-  const int broad = std::max(kLeastBroad, static_cast<int>(kBroad * std::min(dark.rows, dark.cols)));
+  const int broad = broad_in(dark);
   cv::Mat outside = cv::Mat::zeros(dark.size(), CV_8U);
   int at_border = 0;
   for (const cv::Mat& side : {dark.row(0), dark.row(dark.rows - 1), dark.col(0), dark.col(dark.cols - 1)}) at_border += cv::countNonZero(side);
@@ -71,25 +108,25 @@ cv::Mat surroundings(const cv::Mat& dark) {
 }  // namespace
 
 std::unique_ptr<PointSource> open_image(const Input& input) {
-  const double threshold = input.options.threshold;
-  if (!(threshold >= 0.0 && threshold <= 1.0))
-    throw InputError("read options", "threshold", std::to_string(threshold), "a number 0…1");
+  const double share = input.options.threshold;
+  if (!(share >= 0.0 && share <= 1.0)) throw InputError("read options", "threshold", std::to_string(share), "a number 0…1");
   cv::Mat grey = brightness(decode_image(input.view(), input.name));
-  const bool inverted = is_inverted(grey, threshold);
+  const bool inverted = is_inverted(grey, share);
   if (inverted) grey = 1.0 - grey;
-  const cv::Mat outside = surroundings(grey < threshold);
+  const double white = white_of(grey), threshold = share * white;
+  const cv::Mat dark = grey < threshold, outside = surroundings(dark), inside = insides(dark & ~outside), left_out = outside | inside;
   PointCloud cloud;
   std::size_t faint = 0;
   for (int row = 0; row < grey.rows; ++row)
     for (int column = 0; column < grey.cols; ++column) {
-      if (outside.at<std::uint8_t>(row, column) != 0) continue;
+      if (left_out.at<std::uint8_t>(row, column) != 0) continue;
       const double value = grey.at<float>(row, column);
       if (value < threshold) cloud.positions.emplace_back(column, grey.rows - 1 - row, 0.0);
       faint += value >= threshold && value < kFaint;
     }
   if (cloud.size() == 0)
-    throw InputError(input.name, "pixels", "none darker than " + std::to_string(threshold), "dark pixels (--threshold says how dark)");
-  const bool gaps = static_cast<double>(faint) > kManyFaint * static_cast<double>(cloud.size());
+    throw InputError(input.name, "pixels", fmt::format("none darker than {:.2g} of white", threshold), "dark pixels (--threshold says how dark)");
+  const bool gaps = white == 1.0 && static_cast<double>(faint) > kManyFaint * static_cast<double>(cloud.size());
   SourceInfo info;
   info.name = input.name;
   info.two_dimensional = true;
@@ -97,6 +134,7 @@ std::unique_ptr<PointSource> open_image(const Input& input) {
                        std::to_string(grey.rows));
   if (inverted) info.notes.push_back("most of the picture is dark: read as light lines on a dark ground");
   if (cv::countNonZero(outside) > 0) info.notes.push_back("broad dark areas at the picture's border left out");
+  if (cv::countNonZero(inside) > 0) info.notes.push_back("dark areas broader than " + std::to_string(broad_in(grey)) + " pixels are outlined: their lines follow the edges");
   if (gaps)
     info.notes.push_back(count_of(faint, "grey pixel") + " left out: thin lines may have gaps; --threshold " + fmt::format("{}", kFaint) + " takes them too");
   return std::make_unique<OwnedCloudSource>(std::move(cloud), std::move(info));

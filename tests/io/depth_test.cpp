@@ -173,6 +173,35 @@ TEST(Image, BroadDarkBordersAreNoDrawing) {
   EXPECT_EQ(read(encoded(walls), "a.png").size(), 4000u);
 }
 
+TEST(Image, BroadAreasAreOutlined) {
+  cv::Mat filled = sheet();
+  filled(cv::Rect(100, 80, 24, 140)).setTo(0);  // a wall; the frame's lines are 4 pixels wide
+  const auto source = open_points_in_memory(encoded(filled), "a.png");
+  const PointCloud cloud = read_all(*source);
+  const std::size_t frame = 240u * 180u - 232u * 172u;
+  EXPECT_EQ(cloud.size(), frame + 24u * 140u - 22u * 138u);
+  EXPECT_NE(source->info().notes[1].find("broader than 12 pixels"), std::string::npos);
+  cv::Mat turned(300, 300, CV_8U, cv::Scalar(255));
+  const auto across = [](double x, double y) { return std::abs(x - 2.0 * y) / std::sqrt(5.0); };
+  for (int y = 0; y < turned.rows; ++y)
+    for (int x = 0; x < turned.cols; ++x)
+      if (across(x, y) < 12.0) turned.at<std::uint8_t>(y, x) = 0;
+  for (const Vec3& p : read(encoded(turned), "a.png").positions) EXPECT_NEAR(across(p.x(), 299.0 - p.y()), 11.0, 1.0);
+}
+
+TEST(Image, PaperThatIsGreyIsPaper) {
+  for (const int paper : {110, 140, 180})
+    for (const int ink : {0, 25}) {
+      cv::Mat photo(300, 400, CV_8U);
+      cv::theRNG().state = 1;
+      cv::randn(photo, paper, 8);
+      photo(cv::Rect(80, 60, 240, 4)).setTo(ink);
+      const auto source = open_points_in_memory(encoded(photo), "a.png");
+      EXPECT_EQ(read_all(*source).size(), 960u) << paper << " " << ink;
+      EXPECT_EQ(source->info().notes.size(), 1u) << paper << " " << source->info().notes.back();
+    }
+}
+
 TEST(Image, FaultsNameFileAndField) {
   expect_read_error(png8({"   "}), "bad.png", {"pixels", "dark"});
   expect_read_error(png8({"# #"}).substr(0, 20), "bad.png", {"image", "header"});
