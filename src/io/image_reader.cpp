@@ -62,15 +62,21 @@ int broad_in(const cv::Mat& picture) { return std::max(kLeastBroad, static_cast<
 
 /// The insides of broad dark areas, as walls that are filled: 255 where they are. Lines go along their outlines.
 cv::Mat insides(const cv::Mat& dark) {
-  const double half = 0.5 * broad_in(dark);
-  cv::Mat framed, depth, from_core;
-  cv::copyMakeBorder(dark, framed, 1, 1, 1, 1, cv::BORDER_REPLICATE);
-  cv::distanceTransform(framed, depth, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  depth = depth(cv::Rect(1, 1, dark.cols, dark.rows));
-  const cv::Mat core = depth > half;
-  if (cv::countNonZero(core) == 0 || cv::countNonZero(~dark) == 0) return cv::Mat::zeros(dark.size(), CV_8U);
-  cv::distanceTransform(~core, from_core, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  return (from_core <= std::sqrt(2.0) * half) & (depth > kRim);  // as far as into corners
+  cv::Mat found = cv::Mat::zeros(dark.size(), CV_8U), framed, squares, depth, from_core;
+  const int broad = broad_in(dark);
+  const double half = 0.5 * broad;
+  // A disc has a square within it: where there is none, as in most drawings, distances need not be known.
+  cv::copyMakeBorder(dark, framed, broad, broad, broad, broad, cv::BORDER_REPLICATE);  // what leaves the picture goes on
+  cv::erode(framed, squares, cv::Mat::ones(static_cast<int>(std::sqrt(2.0) * half), static_cast<int>(std::sqrt(2.0) * half), CV_8U));
+  if (cv::countNonZero(squares) == 0 || cv::countNonZero(~dark) == 0) return found;
+  const cv::Rect picture(broad, broad, dark.cols, dark.rows), near = cv::boundingRect(squares) + cv::Size(2 * broad, 2 * broad) - cv::Point(broad, broad);
+  const cv::Rect part = near & cv::Rect({}, framed.size());
+  cv::distanceTransform(framed(part), depth, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::distanceTransform(depth <= half, from_core, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const cv::Mat inside = (from_core <= std::sqrt(2.0) * half) & (depth > kRim);  // as far as into corners
+  const cv::Rect shown = part & picture;
+  inside(shown - part.tl()).copyTo(found(shown - picture.tl()));
+  return found;
 }
 
 /// True if most pixels are dark, but not all, and the others lighter: light lines on a dark ground.
