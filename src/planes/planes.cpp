@@ -149,6 +149,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     model = build_model(selection, patches, grid, cells, angles, space, context);
     refit_held(model, tolerance, space);
     extend_parts(model, grid, cells, context);
+    join_parts(model, grid, cells);
   }
   std::vector<Moments> sums(model.parts.size());
   Reach reach;

@@ -236,6 +236,22 @@ TEST(Drawings, ShortStrokesDoNotLevelAScannedPlan) {
   }
 }
 
+/// Where others end on it normals are theirs, and the line's patches end: its parts grow together again.
+TEST(Drawings, AWallThatOthersEndOnIsOneLine) {
+  PointCloud cloud;
+  const auto bar = [&](int x, int y, int width, int height) {
+    for (int i = 0; i < width; ++i)
+      for (int k = 0; k < height; ++k) cloud.positions.emplace_back(x + i, y + k, 0);
+  };
+  bar(0, 0, 900, 3);
+  for (const int x : {200, 400, 650}) bar(x, 3, 3, 300);
+  const test::Run r = test::run(cloud, test::with_scale(2.5));
+  ASSERT_EQ(r.result.planes.size(), 4u);
+  double longest = 0;
+  for (const ArrangedPlane& p : r.result.planes) longest = std::max(longest, p.area);
+  EXPECT_NEAR(longest, 900, 2);
+}
+
 /// Points of a drawing in a plane other than z = 0 are noticed, and the lines lie in it.
 TEST(Drawings, AnyCoordinatePlaneWillDo) {
   SynthOptions synth;
