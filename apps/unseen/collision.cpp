@@ -31,9 +31,12 @@ struct CollisionArguments {
   collision::Options options;
 };
 
+/// A standard deviation says something where the interval has one of about that width to either side.
 std::string text_of(const collision::Estimate& e) {
   const int digits = e.sd >= 0.001 ? 3 : 4;
-  return fmt::format("{:.{}f} ± {:.{}f} (95 %: {:.{}f}…{:.{}f})", e.value, digits, e.sd, digits, e.low, digits, e.high, digits);
+  const bool even = e.low <= e.value - e.sd && e.value + e.sd <= e.high;
+  const std::string interval = fmt::format("95 %: {:.{}f}…{:.{}f}", e.low, digits, e.high, digits);
+  return even ? fmt::format("{:.{}f} ± {:.{}f} ({})", e.value, digits, e.sd, digits, interval) : fmt::format("{:.{}f} ({})", e.value, digits, interval);
 }
 
 void print_impacts(const collision::Reconstruction& r) {

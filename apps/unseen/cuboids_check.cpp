@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "commands.h"
 #include "session.h"
 #include "unseen/core/error.h"
@@ -38,14 +40,27 @@ std::vector<cuboids::Block> blocks_of(const io::Assembly& assembly, double densi
   return blocks;
 }
 
-void print_verdict(const cuboids::Check& check, std::size_t blocks, const cuboids::CheckOptions& options) {
+/// The blocks that begin to move, fastest first.
+std::string falling(const cuboids::Check& check, const std::vector<cuboids::Block>& blocks) {
+  constexpr std::size_t kMost = 5;
+  std::vector<std::pair<double, std::size_t>> moving;
+  for (std::size_t i = 0; i < check.velocity.size(); ++i)
+    if (const double speed = check.velocity[i].norm() + check.angular_velocity[i].norm(); speed > 0.0) moving.emplace_back(-speed, i);
+  std::sort(moving.begin(), moving.end());
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(kMost, moving.size()); ++k) names.push_back(blocks[moving[k].second].name);
+  if (moving.size() > kMost) names.push_back(fmt::format("{} more", moving.size() - kMost));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void print_verdict(const cuboids::Check& check, const std::vector<cuboids::Block>& blocks, const cuboids::CheckOptions& options) {
   const cuboids::Stability& s = check.stability;
-  fmt::print("{} blocks, {} contacts, fixed: {}\n", blocks, check.contacts.size(), fmt::join(options.supports, ", "));
+  fmt::print("{} blocks, {} contacts, fixed: {}\n", blocks.size(), check.contacts.size(), fmt::join(options.supports, ", "));
   if (s.stable)
     fmt::print("stands: bears a sideways push of {:.3f} g, needs a friction of {:.3f} (has {:.4g})\n", s.margin,
                s.friction_needed, options.friction);
   else
-    fmt::print("falls\n");
+    fmt::print("falls; what begins to move: {}\n", falling(check, blocks));
   fmt::print("residual {:.2g}\n", s.residual);
 }
 
@@ -65,7 +80,7 @@ int run_check(const CheckArguments& args, const CommonFlags& common) {
   if (common.json) {
     fmt::print("{}", report::check_json(check, blocks, options));
   } else if (!common.quiet) {
-    print_verdict(check, blocks.size(), options);
+    print_verdict(check, blocks, options);
   }
   return check.stability.stable ? kSolved : kNoSolution;
 }

@@ -85,10 +85,11 @@ void check_unchanged(const report::InputRecord& input, const std::string& sha256
 
 /// The frame that a result was made from, if it is still where it was; without it the page has neither depth nor
 /// photograph, and says so.
-RgbdFrame frame_of(const report::StoredRun& run, cuboids::Completion& c, Context& context) {
+RgbdFrame frame_of(const std::filesystem::path& folder, const report::StoredRun& run, cuboids::Completion& c, Context& context) {
   try {
-    check_unchanged(run.input, io::sha256(run.input.path, context));
-    return io::read_rgbd_frame(run.input.path);
+    const std::filesystem::path path = report::find_input(folder / "result.json", run.input.path);
+    check_unchanged(run.input, io::sha256(path, context));
+    return io::read_rgbd_frame(path);
   } catch (const InputError& error) {
     c.summary.warnings.push_back(fmt::format("shown without depth and photograph: {}", error.what()));
     context.warn(c.summary.warnings.back());
@@ -101,7 +102,7 @@ Shown cuboids_result(const std::filesystem::path& folder, const report::StoredRu
   CuboidsOptions options;
   OptionTable table = options.table();
   const std::string command = command_of(run, {run.input.path}, folder.string(), table);
-  const RgbdFrame frame = frame_of(run, c, context);
+  const RgbdFrame frame = frame_of(folder, run, c, context);
   return {report::cuboids_title(run.input), report::cuboids_scene(c, run.input, table, command, frame)};
 }
 
@@ -113,8 +114,9 @@ Shown collision_result(const std::filesystem::path& folder, const report::Stored
   collision::Shot shot;
   std::vector<collision::OverlayPicture> pictures;
   try {  // without the shot the page has neither shapes nor clip, and says so
-    check_unchanged(run.input, io::sha256(run.input.path, context));
-    shot = report::read_shot(run.input.path);
+    const std::filesystem::path path = report::find_input(folder / "result.json", run.input.path);
+    check_unchanged(run.input, io::sha256(path, context));
+    shot = report::read_shot(path);
     pictures = collision::write_overlay(shot, r, "", context);
   } catch (const InputError& error) {
     r.summary.warnings.push_back(fmt::format("shown without the clip: {}", error.what()));
@@ -131,8 +133,10 @@ Shown interactions_result(const std::filesystem::path& folder, const report::Sto
   const std::string command = command_of(run, inputs, folder.string(), table);
   std::vector<interactions::Take> takes;
   try {  // without the take the page does not show what the detector saw, and says so
-    check_unchanged(run.input, record_of(inputs, context).sha256);
-    takes = read_takes(inputs, options, context);
+    std::vector<std::string> paths = inputs;  // the record of several holds their paths
+    if (paths.size() == 1) paths[0] = report::find_input(folder / "result.json", paths[0]).string();
+    check_unchanged(run.input, record_of(paths, context).sha256);
+    takes = read_takes(paths, options, context);
   } catch (const InputError& error) {
     r.summary.warnings.push_back(fmt::format("shown without the detections: {}", error.what()));
     context.warn(r.summary.warnings.back());

@@ -116,7 +116,8 @@ cv::Mat surroundings(const cv::Mat& dark) {
 std::unique_ptr<PointSource> open_image(const Input& input) {
   const double share = input.options.threshold;
   if (!(share >= 0.0 && share <= 1.0)) throw InputError("read options", "threshold", std::to_string(share), "a number 0…1");
-  cv::Mat grey = brightness(decode_image(input.view(), input.name));
+  const cv::Mat picture = decode_image(input.view(), input.name);
+  cv::Mat grey = brightness(picture);
   const bool inverted = is_inverted(grey, share);
   if (inverted) grey = 1.0 - grey;
   const double white = white_of(grey), threshold = share * white;
@@ -138,6 +139,8 @@ std::unique_ptr<PointSource> open_image(const Input& input) {
   info.two_dimensional = true;
   info.notes.push_back(count_of(cloud.size(), "dark pixel") + " of " + std::to_string(grey.cols) + " x " +
                        std::to_string(grey.rows));
+  if (picture.type() == CV_16UC1 && static_cast<double>(cv::countNonZero(dark)) > kMostlyDark * static_cast<double>(dark.total()))
+    info.notes.push_back("16 bits a pixel, and mostly dark: a depth image is no drawing; unseen cuboids takes it, or a folder of frames with poses");
   if (inverted) info.notes.push_back("most of the picture is dark: read as light lines on a dark ground");
   if (cv::countNonZero(outside) > 0) info.notes.push_back("broad dark areas at the picture's border left out");
   if (cv::countNonZero(inside) > 0) info.notes.push_back("dark areas broader than " + std::to_string(broad_in(grey)) + " pixels are outlined: their lines follow the edges");

@@ -190,6 +190,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   find_relations(angles, result);
   find_second_order(result);
   tag_planes(result);
+  warn_of_up(result, context);
   warn_of_curves(patches, space, context);
   warn_of_right_angles(result, angles, context);
   context.check();

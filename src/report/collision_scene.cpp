@@ -71,7 +71,10 @@ void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
 }
 
 /// With as many digits as the deviation has to say something with, three at least.
-std::string text_of(const Estimate& e) { return e.sd >= 0.001 ? fmt::format("{:.3f} ± {:.3f}", e.value, e.sd) : fmt::format("{:.4f} ± {:.4f}", e.value, e.sd); }
+std::string text_of(const Estimate& e) {
+  const int digits = e.sd >= 0.001 ? 3 : 4;
+  return fmt::format("{:.{}f} (95 %: {:.{}f}…{:.{}f})", e.value, digits, e.low, digits, e.high, digits);
+}
 
 Json facts_of(const Reconstruction& r) {
   Json facts = Json::array();

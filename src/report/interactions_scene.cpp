@@ -96,6 +96,7 @@ Json facts_of(const Reconstruction& r) {
     for (const PersonFrame& f : p.frames) hidden += static_cast<double>((f.confidence < 0.5).count()) / kJoints;
   }
   fact("objects", std::to_string(r.objects.size()));
+  if (!r.objects.empty()) fact("their places", "off by some 20 to 60 cm");  // docs/interactions.md, limits
   fact("people", std::to_string(r.people.size()));
   fact("windows with an interaction", std::to_string(r.windows.size()));
   if (frames > 0) {

@@ -99,6 +99,17 @@ int known_id(const JsonField& json, const std::set<int>& ids) {
   return id;
 }
 
+std::filesystem::path find_input(const std::filesystem::path& result, const std::filesystem::path& path) {
+  const std::filesystem::path file = std::filesystem::absolute(result).lexically_normal();
+  std::vector<std::filesystem::path> candidates = {path};
+  for (std::filesystem::path folder = file.parent_path(); folder != folder.root_path(); folder = folder.parent_path()) candidates.push_back(folder / path);
+  candidates.push_back(file.parent_path() / path.filename());
+  std::error_code error;
+  for (const std::filesystem::path& candidate : candidates)
+    if (std::filesystem::exists(candidate, error)) return candidate;
+  return path;
+}
+
 StoredRun read_stored_run(const std::filesystem::path& path) {
   const nlohmann::json parsed = parse_json(read_result_text(path), path.string());
   const JsonField json(parsed, path.string());

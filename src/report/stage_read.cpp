@@ -11,6 +11,7 @@
 #include "unseen/report/collision_result.h"
 #include "unseen/report/collision_shot.h"
 #include "unseen/report/stage_files.h"
+#include "unseen/report/stored_run.h"
 
 namespace unseen::report {
 namespace {
@@ -25,23 +26,20 @@ constexpr double kAfterMeeting = 0.5;  // s: what a shot without a duration show
 
 fs::path result_file(const fs::path& named) { return fs::is_directory(named) ? named / "result.json" : named; }
 
+fs::path folder_of(const fs::path& result) { return fs::absolute(result_file(result)).lexically_normal().parent_path(); }
+
 /// The shot that a result was made from, unless another file is named. Its path is relative to where the result was made: here, or in
 /// a folder that holds the result's.
 Shot shot_of(const fs::path& result, const fs::path& named) {
   if (!named.empty()) return read_shot(named);
   const fs::path path = read_stored_run(result).input.path;
-  std::vector<fs::path> candidates = {path};
-  for (fs::path folder = fs::absolute(result).lexically_normal().parent_path(); folder != folder.root_path(); folder = folder.parent_path())
-    candidates.push_back(folder / path);
-  candidates.push_back(result.parent_path() / path.filename());
-  for (const fs::path& candidate : candidates)
-    if (fs::is_regular_file(candidate)) return read_shot(candidate);
+  if (const fs::path found = find_input(result, path); fs::is_regular_file(found)) return read_shot(found);
   throw InputError(result.string(), "input.path", path.string() + ", which does not exist", "the SHOT.json of the result; a shot list names it as shot = \"…\"");
 }
 
 StagedCollision read_collision(const fs::path& result, const fs::path& shot) {
   StagedCollision c;
-  const fs::path file = result_file(result), folder = fs::absolute(file).lexically_normal().parent_path();
+  const fs::path file = result_file(result), folder = folder_of(result);
   if (!fs::is_regular_file(file)) throw InputError(file.string(), "file", "none", "the result of unseen collision");
   c.name = file.filename() == "result.json" ? folder.filename().string() : file.stem().string();
   c.file = file.string();
@@ -187,6 +185,8 @@ StagePlan stage_side_by_side(const std::vector<std::string>& results) {
     const auto taken = [&](const std::string& name) {
       return std::any_of(plan.collisions.begin(), plan.collisions.end(), [&](const StagedCollision& o) { return o.name == name; });
     };
+    const auto alike = [&](const std::string& other) { return folder_of(other).filename() == folder_of(result).filename(); };
+    if (std::count_if(results.begin(), results.end(), alike) > 1) c.name = folder_of(result).parent_path().filename().string();  // each shot has its "result"
     const std::string name = c.name.empty() ? "collision" : c.name;
     c.name = name;
     for (int i = 2; taken(c.name); ++i) c.name = fmt::format("{}-{}", name, i);

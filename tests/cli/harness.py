@@ -63,8 +63,8 @@ class CliTest(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
 
-    def unseen(self, *arguments, timeout=300, **more):
-        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+    def unseen(self, *arguments, timeout=300, cwd=None, **more):
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=cwd or self.folder, capture_output=True, text=True,
                               timeout=timeout, **more)
 
     def room_file(self, name="room.ply", **more):

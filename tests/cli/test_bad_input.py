@@ -41,6 +41,15 @@ class BadInput(CliTest):
         (self.folder / name).write_bytes(data if isinstance(data, bytes) else data.encode())
         return name
 
+    def test_a_video_in_the_place_of_a_shot(self):
+        (self.folder / "clip.mp4").write_bytes(b"\0\0\0\x20ftypisom" + bytes(range(256)))
+        for command in ("collision", "cuboids", "interactions"):
+            self.assert_one_line(self.unseen(command, "clip.mp4", "-o", "out"), 3, "clip.mp4")
+        self.assertIn("no text", self.unseen("collision", "clip.mp4", "-o", "out").stderr)
+
+    def test_two_scales(self):
+        self.assert_one_line(self.unseen("planes", self.room_file(), "--scale", "0.1", "--relative-scale", "0.01", "-o", "out"), 3, "relative_scale", "one of the two")
+
     def test_no_such_file(self):
         self.assert_refused("none.ply", "none.ply")
 

@@ -163,6 +163,10 @@ class Cuboids(CliTest):
         first, = scenes_of(self.folder / "out/report.html")
         self.assertEqual(first.header["command"], "unseen cuboids frame.json -o out --density 400")
         self.assertEqual((self.folder / "out/report.html").read_bytes(), before)
+        (self.folder / "elsewhere").mkdir()
+        run = self.unseen("view", "../out", cwd=self.folder / "elsewhere")
+        self.assertEqual((run.returncode, run.stderr), (0, ""), "from another folder the frame is found, too")
+        self.assertEqual(scenes_of(self.folder / "out/report.html")[0].header["structures"], first.header["structures"])
         (self.folder / "depth.png").unlink()
         run = self.unseen("view", "out")
         self.assertEqual(run.returncode, 0, run.stderr)
@@ -187,7 +191,7 @@ class Check(CliTest):
         self.assembly(2.2)  # its centre is beyond the beam's end at 2 m
         run = self.unseen("cuboids", "--check", "a.json", "--support", "beam")
         self.assertEqual((run.returncode, run.stderr), (4, ""))
-        self.assertIn("falls", run.stdout)
+        self.assertIn("falls; what begins to move: 7", run.stdout)
 
     def test_json(self):
         self.assembly(0.5, supports=["beam"])

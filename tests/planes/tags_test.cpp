@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planes/result/describe.h"
+#include "planes/result/remarks.h"
 #include "planes/scenes.h"
 
 namespace unseen::planes {
@@ -136,6 +137,24 @@ TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
 }
 
 /// Level planes 0.1 m apart, of whose points the first lie on theirs, the second beside it, and of the third there are two.
+std::size_t warnings_of_up(const Eigen::Matrix3d& turn) {
+  Arrangement all;
+  for (const auto& [corner, a, b] : {std::tuple(Vec3(0, 0, 0), Vec3(8, 0, 0), Vec3(0, 6, 0)), {Vec3(0, 0, 2.7), Vec3(8, 0, 0), Vec3(0, 6, 0)},
+                                     {Vec3(0, 0, 0), Vec3(8, 0, 0), Vec3(0, 0, 2.7)}, {Vec3(0, 0, 0), Vec3(0, 6, 0), Vec3(0, 0, 2.7)}})
+    add(all, turn * corner, turn * a, turn * b);
+  tag_planes(all);
+  Context context;
+  warn_of_up(all, context);
+  return context.take_warnings().size();
+}
+
+TEST(Tags, AScanThatIsTurnedIsSaidToBe) {
+  EXPECT_EQ(warnings_of_up(Mat3::Identity()), 0u);
+  EXPECT_EQ(warnings_of_up(Eigen::AngleAxisd(0.5, Vec3::UnitZ()).matrix()), 0u);
+  EXPECT_EQ(warnings_of_up(Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.5).normalized()).matrix()), 1u);
+  EXPECT_EQ(warnings_of_up((Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()) * Eigen::AngleAxisd(0.3, Vec3::UnitZ())).matrix()), 1u) << "y is up, walls askew";
+}
+
 TEST(Describe, LeavesOutWhatLiesOffItsPointsOrHasNone) {
   PointCloud cloud;
   Random random(1);

@@ -54,7 +54,7 @@ export function addKeyboard(app: App, help: HTMLDialogElement) {
       if (time && arrow[0] !== 0 && !e.shiftKey) {
         app.setPlaying(false);
         app.setTime(app.time + arrow[0] * time.step);
-      } else if (e.shiftKey || app.rig.flat) app.rig.pan(-arrow[0] * 0.12, arrow[1] * -0.12 * -1 * -1);
+      } else if (e.shiftKey || app.rig.flat) app.rig.pan(-arrow[0] * 0.12, arrow[1] * 0.12);
       else app.rig.orbit(-arrow[0] * 0.12, arrow[1] * 0.08);
       return;
     }

@@ -81,6 +81,22 @@ void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Con
   if (right > kMany * all) context.warn("planes at right angles are not related, as the angles asked for do not name 90: add it, as in --angles 60,90");
 }
 
+void warn_of_up(const Arrangement& result, Context& context) {
+  constexpr double kSome = 0.02, kMost = 0.85;  // of the area: roofs from above may be four fifths
+  if (result.two_dimensional) return;
+  double level = 0, sloped = 0, all = 0;
+  for (const ArrangedPlane& p : result.planes) {
+    all += p.area;
+    if (p.tag == "sloped") sloped += p.area;
+    else if (p.tag != "wall" && p.tag != "vertical") level += p.area;
+  }
+  if (level < kSome * all)
+    context.warn(fmt::format("tags count z as up, and no plane {}is level along it: if another axis is up, turn the scan so that z is",
+                             level > 0 ? "of note " : ""));
+  else if (sloped > kMost * all)
+    context.warn("tags count z as up, and most planes are neither level nor plumb along it: if this is no landscape, turn the scan so that z is up");
+}
+
 void warn_of_curves(const Patches& patches, const Space& space, Context& context) {
   constexpr double kLeast = 2.0 * kPi / 180.0, kMost = 20.0 * kPi / 180.0;  // between strips of a curved surface
   constexpr double kFlush = 0.5 * kPi / 180.0, kMany = 0.6, kWhole = 0.8;   // no edge; of all edges; of the area that has edges, with most of that sort

@@ -24,4 +24,7 @@ void warn_of_curves(const Patches& patches, const Space& space, Context& context
 /// Warns where planes are at right angles that the angles asked for do not name.
 void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Context& context);
 
+/// Says so if the tags find no floor or the like, or little but slopes: the scan may be turned.
+void warn_of_up(const Arrangement& result, Context& context);
+
 }  // namespace unseen::planes

@@ -25,7 +25,7 @@ export function factsOf(app: App, view: SceneView): HTMLElement | null {
   const add = (name: string, value: string) => list.append(h('dt', {}, name), h('dd', {}, value));
   const table = model.table(selection.structure);
   const row = table?.rows[selection.index];
-  if (table && row) table.columns.forEach((c, k) => add(c.name, cellText(row[k], c.digits) + (c.unit && row[k] !== null ? ` ${c.unit}` : '')));
+  if (table && row) table.columns.forEach((c, k) => add(c.name, cellText(row[k], c.digits) + (c.unit && row[k] !== null && row[k] !== '' ? ` ${c.unit}` : '')));
   else {
     for (const q of structure.quantities ?? []) {
       if (q.array.count <= selection.index) continue;
