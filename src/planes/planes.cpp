@@ -75,7 +75,7 @@ struct Look {
   Survey survey;
   Space space;
   Scale scale;
-  double rounding = 0;       ///< m, of the coordinates
+  double raster = 0;         ///< m, of the coordinates
   bool use_normals = false;  ///< those of the input
 };
 
@@ -88,7 +88,7 @@ Look look_at(PointSource& source, const Options& options, Context& context, Arra
   check_distinct(look.survey, info.name);
   look.space = space_of(look.survey, info.two_dimensional);
   look.scale = choose_scale(source, look.survey, look.space, options, context);
-  look.rounding = std::max(rounding_of(look.survey), look.scale.step);
+  look.raster = rounding_of(look.survey);
   look.use_normals = normals_usable(look.survey, look.space, context);
   result.scale = look.scale.scale;
   result.two_dimensional = look.space.is_2d();
@@ -123,7 +123,8 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       context.warn(fmt::format("{} of {} points lie far from all others and are left out", voxels.outside(), seen.finite));
     grid = VoxelGrid(voxels, context);
     grid.tolerance = tolerance;
-    grid.rounding = look.rounding;
+    grid.raster = look.raster;
+    grid.rounding = std::max(look.raster, look.scale.step);
     check_not_collinear(grid, space, source.info().name);
     if (!look.use_normals) grid.normals.clear();
     summary.counts.emplace_back("voxels", grid.size());
@@ -149,7 +150,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     model = build_model(selection, patches, grid, cells, angles, space, context);
     refit_held(model, tolerance, space);
     extend_parts(model, grid, cells, context);
-    join_parts(model, grid, cells);
+    join_parts(model, grid, cells, context);
   }
   std::vector<Moments> sums(model.parts.size());
   Reach reach;

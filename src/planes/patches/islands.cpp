@@ -5,22 +5,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <iterator>
 
 namespace unseen::planes {
 namespace {
 
-constexpr double kApart = 5.0, kOfTolerance = 0.25;  // times the noise, and of the tolerance: how far levels are apart at least
-constexpr double kGain = 0.4;                       // of the squared error: two levels leave less
-constexpr std::size_t kFewestCells = 36;            // of a level, and of an island: three scales each way
-constexpr double kTogether = 0.5;                   // of the neighbours of an island's voxels: on its level
-constexpr int kBeside = 2;                          // voxels: neighbours
+constexpr double kApart = 6.0;           // times the noise: how far levels are apart at least,
+constexpr double kOfTolerance = 0.25;    // and of the tolerance,
+constexpr double kSteps = 3.0;           // and of the steps of rounded coordinates: a slant is no staircase
+constexpr double kLeft = 0.4;            // of the squared error: two levels leave less
+constexpr std::size_t kFewestCells = 36; // of a level, and of an island: three scales each way
+constexpr double kTogether = 0.5;        // of the voxels around those of an island, with these: on its level
+constexpr int kBeside = 2;               // voxels: around
 constexpr int kBins = 64, kRounds = 6;
-constexpr int kPiece = 3;                           // a small piece is 2³ voxels wide
+constexpr int kPieceBits = 3;            // a small piece is 2³ voxels wide
 
 /// The voxels of a region on two parallel planes.
 struct TwoLevels {
-  std::vector<char> upper;  ///< parallel to the region
+  std::vector<char> level;  ///< 0 or 1, parallel to the region
   std::array<Moments, 2> sum;
   std::array<std::size_t, 2> cells{};
   PlaneFit fit;  ///< of both, each about its own mean
@@ -57,13 +59,16 @@ double threshold_of(const std::vector<double>& height, const VoxelGrid& grid, co
 
 /// The normal of most small pieces: a plane over two levels is tilted by where these lie.
 Vec3 local_normal(const VoxelGrid& grid, const std::vector<int>& region) {
-  std::map<VoxelKey, Moments> pieces;
+  KeyTable pieces;
+  std::vector<Moments> sums;
   for (const int i : region) {
     const VoxelKey& k = grid.keys[i];
-    pieces[{k[0] >> kPiece, k[1] >> kPiece, k[2] >> kPiece}] += grid.moments[i];
+    const std::size_t at = pieces.insert({k[0] >> kPieceBits, k[1] >> kPieceBits, k[2] >> kPieceBits});
+    if (at == sums.size()) sums.emplace_back();
+    sums[at] += grid.moments[i];
   }
   Moments pooled;
-  for (const auto& [key, m] : pieces) {
+  for (const Moments& m : sums) {
     pooled.count += m.count;
     pooled.scatter += m.scatter;
   }
@@ -82,9 +87,9 @@ TwoLevels two_levels(const VoxelGrid& grid, const std::vector<int>& region) {
     levels.sum = {};
     levels.cells = {};
     for (std::size_t i = 0; i < region.size(); ++i) {
-      const char up = height[i] >= threshold;
-      same = same && up == levels.upper[i];
-      levels.upper[i] = up;
+      const char up = height[i] >= threshold ? 1 : 0;
+      same = same && up == levels.level[i];
+      levels.level[i] = up;
       levels.sum[up] += grid.moments[region[i]];
       ++levels.cells[up];
     }
@@ -94,35 +99,32 @@ TwoLevels two_levels(const VoxelGrid& grid, const std::vector<int>& region) {
   return levels;
 }
 
-VoxelSet set_of(const VoxelGrid& grid, const std::vector<int>& region, const std::vector<char>& upper, char level) {
+VoxelSet set_of(const VoxelGrid& grid, const std::vector<int>& region, const TwoLevels& levels, char level) {
   VoxelSet set = grid.empty_set();
   for (std::size_t i = 0; i < region.size(); ++i)
-    if (upper[i] == level) grid.insert(set, region[i]);
+    if (levels.level[i] == level) grid.insert(set, region[i]);
   return set;
 }
 
-/// Whether the voxels of the smaller level lie side by side, and not here and there as noise does.
-bool lie_together(const VoxelGrid& grid, const std::vector<int>& region, const TwoLevels& levels) {
-  const char smaller = levels.cells[1] < levels.cells[0];
-  const VoxelSet own = set_of(grid, region, levels.upper, smaller), other = set_of(grid, region, levels.upper, !smaller);
+/// Whether the voxels of a level lie side by side, and not here and there among the others as noise does.
+bool lie_together(const VoxelGrid& grid, const std::vector<int>& region, const TwoLevels& levels, char level, const VoxelSet& own, const VoxelSet& others) {
   std::size_t same = 0, all = 0;
   for (std::size_t i = 0; i < region.size(); ++i) {
-    if (levels.upper[i] != smaller) continue;
+    if (levels.level[i] != level) continue;
     grid.for_neighbours(region[i], kBeside, own, [&](int) { ++same, ++all; });
-    grid.for_neighbours(region[i], kBeside, other, [&](int) { ++all; });
+    grid.for_neighbours(region[i], kBeside, others, [&](int) { ++all; });
   }
   return static_cast<double>(same) > kTogether * static_cast<double>(all);
 }
 
-/// The connected pieces of a level; what is too small for one goes to the largest.
-void add_pieces(const VoxelGrid& grid, const std::vector<int>& region, const std::vector<char>& upper, char level, CellSets& pieces) {
-  VoxelSet left = set_of(grid, region, upper, level);
+/// The connected pieces of a level, whose voxels `left` holds; what is too small for one goes to the largest. None if all are too small.
+CellSets pieces_of(const VoxelGrid& grid, const std::vector<int>& region, VoxelSet left) {
   CellSets found;
   std::vector<int> crumbs;
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    if (upper[i] != level || !grid.contains(left, region[i])) continue;
-    std::vector<int> piece = {region[i]};
-    grid.erase(left, region[i]);
+  for (const int start : region) {
+    if (!grid.contains(left, static_cast<std::size_t>(start))) continue;
+    std::vector<int> piece = {start};
+    grid.erase(left, static_cast<std::size_t>(start));
     for (std::size_t at = 0; at < piece.size(); ++at)
       grid.for_neighbours(piece[at], kBeside, left, [&](int k) {
         grid.erase(left, static_cast<std::size_t>(k));
@@ -131,24 +133,29 @@ void add_pieces(const VoxelGrid& grid, const std::vector<int>& region, const std
     if (piece.size() < kFewestCells) crumbs.insert(crumbs.end(), piece.begin(), piece.end());
     else found.push_back(std::move(piece));
   }
-  if (found.empty()) found.emplace_back();
-  auto largest = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  if (found.empty()) return found;
+  const auto largest = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
   largest->insert(largest->end(), crumbs.begin(), crumbs.end());
-  std::move(found.begin(), found.end(), std::back_inserter(pieces));
+  for (std::vector<int>& piece : found) std::sort(piece.begin(), piece.end());
+  return found;
 }
 
 }  // namespace
 
 Islands islands_in(const VoxelGrid& grid, const std::vector<int>& region, const Moments& whole, const PlaneFit& fit) {
-  const double least = kOfTolerance * grid.tolerance, error = fit.rms * fit.rms * whole.count;
+  const double least = std::max(kOfTolerance * grid.tolerance, kSteps * grid.rounding), error = fit.rms * fit.rms * whole.count;
+  // The smallest island, as high as it must be, makes the rms this much.
   if (fit.rms < least * std::sqrt(static_cast<double>(kFewestCells) / static_cast<double>(region.size()))) return {};
   const TwoLevels levels = two_levels(grid, region);
   const double left = levels.fit.rms * levels.fit.rms * whole.count;
-  if (std::min(levels.cells[0], levels.cells[1]) < kFewestCells || left > kGain * error || levels.apart() < std::max(least, kApart * levels.fit.rms) ||
-      !lie_together(grid, region, levels))
-    return {};
-  Islands islands{{}, left};
-  for (const char level : {0, 1}) add_pieces(grid, region, levels.upper, level, islands.pieces);
+  if (std::min(levels.cells[0], levels.cells[1]) < kFewestCells || left > kLeft * error || levels.apart() < std::max(least, kApart * levels.fit.rms)) return {};
+  const std::array<VoxelSet, 2> sets = {set_of(grid, region, levels, 0), set_of(grid, region, levels, 1)};
+  const char smaller = levels.cells[1] < levels.cells[0];
+  if (!lie_together(grid, region, levels, smaller, sets[smaller], sets[!smaller])) return {};
+  Islands islands{pieces_of(grid, region, sets[0]), left};
+  CellSets upper = pieces_of(grid, region, sets[1]);
+  if (islands.pieces.empty() || upper.empty()) return {};
+  std::move(upper.begin(), upper.end(), std::back_inserter(islands.pieces));
   return islands;
 }
 

@@ -99,12 +99,12 @@ double relief_variance(const Cells& surface, const Patch& patch, const std::vect
 
 /// Variance (rad²) of a tilt along `axis` that rounded coordinates leave: a surface that rises by less than a step between its ends is level
 /// to them, and each step that it passes says where it is (as of a uniform error of a step over its length).
-double rounding_variance(const PlaneFit& fit, const Vec3& axis, double spread, double rounding) {
-  if (!(rounding > 0.0)) return 0.0;
+double rounding_variance(const PlaneFit& fit, const Vec3& axis, double spread, double raster) {
+  if (!(raster > 0.0)) return 0.0;
   int across = 0;
   fit.normal.cwiseAbs().maxCoeff(&across);
-  const double length = std::sqrt(12.0) * std::max(spread, 1e-300), steps = std::abs(axis[across]) * length / rounding;
-  return std::pow(rounding / (length * (1.0 + steps)), 2) / 3.0;
+  const double length = std::sqrt(12.0) * std::max(spread, 1e-300), steps = std::abs(axis[across]) * length / raster;
+  return std::pow(raster / (length * (1.0 + steps)), 2) / 3.0;
 }
 
 /// Half the median rms of regions, and no less than rounding leaves.
@@ -112,7 +112,7 @@ double least_noise_of(const VoxelGrid& grid, const Space& space, const CellSets&
   if (regions.empty()) return 0.0;
   std::vector<double> rms;
   for (const std::vector<int>& region : regions) rms.push_back(fit_plane(sum_of(grid, region), space).rms);
-  return std::max(0.5 * median(std::move(rms)), grid.rounding / std::sqrt(12.0));
+  return std::max(0.5 * median(std::move(rms)), grid.raster / std::sqrt(12.0));
 }
 
 using Pairs = std::vector<std::pair<int, int>>;
@@ -197,10 +197,10 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
   patch.variance_u = tilt_variance(grid, patch, core, fit.u, fit.spread_u, least_noise);
   patch.variance_v = space.is_2d() ? 0.0 : tilt_variance(grid, patch, core, fit.v, fit.spread_v, least_noise);
   if (space.is_2d()) {
-    patch.variance_u += rounding_variance(fit, fit.u, fit.spread_u, grid.rounding);
-  } else if (fit.rms < kDithered * grid.rounding) {
-    patch.variance_u += rounding_variance(fit, fit.u, fit.spread_u, grid.rounding);
-    patch.variance_v += rounding_variance(fit, fit.v, fit.spread_v, grid.rounding);
+    patch.variance_u += rounding_variance(fit, fit.u, fit.spread_u, grid.raster);
+  } else if (fit.rms < kDithered * grid.raster) {
+    patch.variance_u += rounding_variance(fit, fit.u, fit.spread_u, grid.raster);
+    patch.variance_v += rounding_variance(fit, fit.v, fit.spread_v, grid.raster);
   } else if (!surface.normal.empty()) {  // those of points on a raster follow its axes
     patch.variance_u += relief_variance(surface, patch, core, fit.u, fit.spread_u, patch.variance_u);
     patch.variance_v += relief_variance(surface, patch, core, fit.v, fit.spread_v, patch.variance_v);

@@ -7,7 +7,7 @@
 
 namespace unseen::planes {
 
-void join_parts(Model& model, const VoxelGrid& grid, const Cells& cells) {
+void join_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const Context& context) {
   std::vector<int> part_of(grid.size(), -1), first(model.parts.size());
   std::iota(first.begin(), first.end(), 0);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
@@ -18,10 +18,14 @@ void join_parts(Model& model, const VoxelGrid& grid, const Cells& cells) {
   };
   std::vector<int> parts_on(model.surfaces.size(), 0);
   for (const Part& part : model.parts) ++parts_on[part.surface];
-  for (const Part& part : model.parts) {
+  const std::vector<int> part_of_block = grid.labels_of_blocks(part_of);
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const Part& part = model.parts[p];
     if (parts_on[part.surface] < 2) continue;
+    context.check();
+    const auto no_other = [&](std::uint32_t block) { return part_of_block[block] == VoxelGrid::kNone || part_of_block[block] == static_cast<int>(p); };
     for (const int i : part.cells)
-      grid.for_neighbours(i, voxels_within(cells, grid, i), [&](int k) {
+      grid.for_neighbours_unless(i, voxels_within(cells, grid, i), no_other, [&](int k) {
         if (part_of[k] < 0 || part_of[k] == part_of[i] || model.parts[part_of[k]].surface != part.surface) return;
         if ((grid.moments[k].mean - grid.moments[i].mean).norm() > cells.reach[i]) return;
         const int a = first_of(part_of[i]), b = first_of(part_of[k]);

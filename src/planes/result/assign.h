@@ -14,7 +14,7 @@ namespace unseen::planes {
 void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const Context& context);
 
 /// Makes one of the parts of a surface that adjoin since they grew, as a wall does across the end of another one.
-void join_parts(Model& model, const VoxelGrid& grid, const Cells& cells);
+void join_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const Context& context);
 
 /// A plane that a voxel's points may belong to, and whether the voxel's own normal speaks for it.
 struct ReachedPlane {

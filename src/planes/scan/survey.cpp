@@ -143,6 +143,7 @@ double rounding_of(const Survey& survey) {
   constexpr std::size_t kLooked = 2000;
   constexpr double kLeast = 1e-5, kExact = 1e-3;  // of the extent; of a step
   constexpr int kMostTimes = 9;
+  constexpr double kMost = 0.01;  // of the extent: the corners of a box come in any step
   const std::size_t every = survey.sample.size() / kLooked + 1;
   const auto comes_in = [&](double step) {
     for (std::size_t i = 0; i < survey.sample.size(); i += every) {
@@ -155,7 +156,7 @@ double rounding_of(const Survey& survey) {
     for (const double part : {1.0, 0.5, 0.25})
       if (comes_in(part * power)) {
         int times = kMostTimes;  // centres of voxels of 3 cm come in steps of 1 cm too
-        while (times > 1 && !comes_in(times * part * power)) --times;
+        while (times > 1 && (times * part * power > kMost * survey.extent() || !comes_in(times * part * power))) --times;
         return times * part * power;
       }
   return 0.0;

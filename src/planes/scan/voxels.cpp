@@ -122,6 +122,7 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   grid.edge = 2.0 * edge;
   grid.tolerance = tolerance;
   grid.rounding = rounding;
+  grid.raster = raster;
   grid.within = within;
   parent = grid.place(up, context);
   grid.moments.resize(grid.size());

@@ -61,7 +61,8 @@ class VoxelGrid {
 
   double edge = 0;
   double tolerance = 0;  ///< m, how far a plane's points may lie from it; twice the edge unless something else is set
-  double rounding = 0;   ///< m, the steps that coordinates come in; 0 = none that matter
+  double rounding = 0;   ///< m, the steps that coordinates come in along some axis; 0 = none that matter
+  double raster = 0;     ///< m, the same of coordinates that are rounded alike along all axes
   Box within;  ///< what lies outside is in no voxel
   LargeVector<VoxelKey> keys;
   LargeVector<Moments> moments;
