@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "io/image.h"
@@ -42,18 +43,19 @@ cv::Mat brightness(cv::Mat image) {
   return grey.mul(alpha) + (1.0 - alpha);
 }
 
-/// The brightness that a share of the pixels does not exceed, from a million of them.
-double brightness_of(double share, const cv::Mat& grey) {
-  constexpr std::size_t kTelling = 1'000'000;
-  const std::size_t every = grey.total() / kTelling + 1;
+/// About a million of the pixels, or all: those of a raster.
+std::vector<float> sample_of(const cv::Mat& grey) {
+  constexpr double kTelling = 1e6;
+  const int every = 1 + static_cast<int>(std::sqrt(static_cast<double>(grey.total()) / kTelling));
   std::vector<float> values;
-  for (std::size_t i = 0; i < grey.total(); i += every) values.push_back(grey.at<float>(static_cast<int>(i / grey.cols), static_cast<int>(i % grey.cols)));
-  return quantile(std::move(values), share);
+  for (int row = 0; row < grey.rows; row += every)
+    for (int column = 0; column < grey.cols; column += every) values.push_back(grey.at<float>(row, column));
+  return values;
 }
 
 /// What counts as white: in photographs paper is grey.
 double white_of(const cv::Mat& grey) {
-  const double paper = brightness_of(kPaper, grey);
+  const double paper = quantile(sample_of(grey), kPaper);
   return paper < kBlack ? 1.0 : std::min(1.0, paper / kGrey);
 }
 
@@ -62,29 +64,32 @@ int broad_in(const cv::Mat& picture) { return std::max(kLeastBroad, static_cast<
 
 /// The insides of broad dark areas, as walls that are filled: 255 where they are. Lines go along their outlines.
 cv::Mat insides(const cv::Mat& dark) {
-  cv::Mat found = cv::Mat::zeros(dark.size(), CV_8U), framed, squares, depth, from_core;
-  const int broad = broad_in(dark);
+  cv::Mat found = cv::Mat::zeros(dark.size(), CV_8U), squares, framed, framed_squares, depth, from_core;
+  const int broad = broad_in(dark), square = static_cast<int>(std::sqrt(0.5) * broad);
   const double half = 0.5 * broad;
-  // A disc has a square within it: where there is none, as in most drawings, distances need not be known.
-  cv::copyMakeBorder(dark, framed, broad, broad, broad, broad, cv::BORDER_REPLICATE);  // what leaves the picture goes on
-  cv::erode(framed, squares, cv::Mat::ones(static_cast<int>(std::sqrt(2.0) * half), static_cast<int>(std::sqrt(2.0) * half), CV_8U));
+  // A disc has a square within it: where there is none, as in most drawings, distances need not be known. A line along the border is no area.
+  cv::erode(dark, squares, cv::Mat::ones(square, square, CV_8U), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
   if (cv::countNonZero(squares) == 0 || cv::countNonZero(~dark) == 0) return found;
-  const cv::Rect picture(broad, broad, dark.cols, dark.rows), near = cv::boundingRect(squares) + cv::Size(2 * broad, 2 * broad) - cv::Point(broad, broad);
-  const cv::Rect part = near & cv::Rect({}, framed.size());
+  const cv::Rect around = cv::boundingRect(squares) + cv::Size(4 * broad, 4 * broad) - cv::Point(broad, broad);  // in the framed picture
+  cv::copyMakeBorder(dark, framed, broad, broad, broad, broad, cv::BORDER_REPLICATE);  // what leaves the picture goes on
+  cv::copyMakeBorder(squares, framed_squares, broad, broad, broad, broad, cv::BORDER_CONSTANT, cv::Scalar(0));
+  const cv::Rect picture(broad, broad, dark.cols, dark.rows), part = around & cv::Rect({}, framed.size()), shown = part & picture;
   cv::distanceTransform(framed(part), depth, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  cv::distanceTransform(depth <= half, from_core, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  cv::distanceTransform(~((depth > half) & framed_squares(part)), from_core, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   const cv::Mat inside = (from_core <= std::sqrt(2.0) * half) & (depth > kRim);  // as far as into corners
-  const cv::Rect shown = part & picture;
   inside(shown - part.tl()).copyTo(found(shown - picture.tl()));
   return found;
 }
 
-/// True if most pixels are dark, but not all, and the others lighter: light lines on a dark ground.
-bool is_inverted(const cv::Mat& grey, double threshold) {
-  const auto dark = static_cast<std::size_t>(cv::countNonZero(grey < threshold));
-  if (dark == grey.total() || static_cast<double>(dark) <= kMostlyDark * static_cast<double>(grey.total())) return false;
-  const cv::Mat off = grey - brightness_of(0.5, grey);
-  return cv::sum(off.mul(off).mul(off))[0] > 0.0;
+bool is_mostly_dark(const cv::Mat& grey, double threshold) {
+  return static_cast<double>(cv::countNonZero(grey < threshold)) > kMostlyDark * static_cast<double>(grey.total());
+}
+
+/// Whether the pixels far from the median are the lighter ones, by the third moment: light lines on a dark ground.
+bool has_light_lines(const cv::Mat& grey) {
+  const std::vector<float> values = sample_of(grey);
+  const double middle = quantile(values, 0.5);
+  return std::accumulate(values.begin(), values.end(), 0.0, [&](double sum, float v) { return sum + std::pow(v - middle, 3); }) > 0.0;
 }
 
 /// Broad dark areas that touch the picture's border, as a scanner's lid or a table around the sheet leaves them, if they are much of what is dark: 255 where
@@ -116,9 +121,10 @@ cv::Mat surroundings(const cv::Mat& dark) {
 std::unique_ptr<PointSource> open_image(const Input& input) {
   const double share = input.options.threshold;
   if (!(share >= 0.0 && share <= 1.0)) throw InputError("read options", "threshold", std::to_string(share), "a number 0…1");
-  const cv::Mat picture = decode_image(input.view(), input.name);
-  cv::Mat grey = brightness(picture);
-  const bool inverted = is_inverted(grey, share);
+  cv::Mat picture = decode_image(input.view(), input.name);
+  const bool grey_16 = picture.type() == CV_16UC1;
+  cv::Mat grey = brightness(std::move(picture));
+  const bool mostly_dark = is_mostly_dark(grey, share), inverted = mostly_dark && cv::countNonZero(grey >= share) > 0 && has_light_lines(grey);
   if (inverted) grey = 1.0 - grey;
   const double white = white_of(grey), threshold = share * white;
   const cv::Mat dark = grey < threshold, outside = surroundings(dark), inside = insides(dark & ~outside), left_out = outside | inside;
@@ -133,13 +139,14 @@ std::unique_ptr<PointSource> open_image(const Input& input) {
     }
   if (cloud.size() == 0)
     throw InputError(input.name, "pixels", fmt::format("none darker than {:.2g} of white", threshold), "dark pixels (--threshold says how dark)");
-  const bool gaps = white == 1.0 && static_cast<double>(faint) > kManyFaint * static_cast<double>(cloud.size());
+  const bool gaps = white == 1.0 &&  // grey paper is grey all over
+                    static_cast<double>(faint) > kManyFaint * static_cast<double>(cloud.size());
   SourceInfo info;
   info.name = input.name;
   info.two_dimensional = true;
   info.notes.push_back(count_of(cloud.size(), "dark pixel") + " of " + std::to_string(grey.cols) + " x " +
                        std::to_string(grey.rows));
-  if (picture.type() == CV_16UC1 && static_cast<double>(cv::countNonZero(dark)) > kMostlyDark * static_cast<double>(dark.total()))
+  if (grey_16 && mostly_dark)
     info.notes.push_back("16 bits a pixel, and mostly dark: a depth image is no drawing; unseen cuboids takes it, or a folder of frames with poses");
   if (inverted) info.notes.push_back("most of the picture is dark: read as light lines on a dark ground");
   if (cv::countNonZero(outside) > 0) info.notes.push_back("broad dark areas at the picture's border left out");

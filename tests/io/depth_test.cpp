@@ -189,8 +189,29 @@ TEST(Image, BroadAreasAreOutlined) {
   for (const Vec3& p : read(encoded(turned), "a.png").positions) EXPECT_NEAR(across(p.x(), 299.0 - p.y()), 11.0, 1.0);
 }
 
+TEST(Image, LinesAlongTheBorderAreNoAreas) {
+  cv::Mat image(300, 400, CV_8U, cv::Scalar(255));
+  image.rowRange(0, 5).setTo(0);
+  image.colRange(0, 5).setTo(0);
+  const auto source = open_points_in_memory(encoded(image), "a.png");
+  EXPECT_EQ(read_all(*source).size(), 400u * 5u + 295u * 5u);
+  EXPECT_EQ(source->info().notes.size(), 1u);
+  image.setTo(255);
+  image(cv::Rect(0, 100, 200, 24)).setTo(0);  // a filled wall that leaves the picture has no outline there
+  for (const Vec3& p : read(encoded(image), "a.png").positions) EXPECT_TRUE(p.x() > 197.0 || std::abs(p.y() - 187.5) > 11.0) << p.transpose();
+}
+
+TEST(Image, ADepthImageIsSaidToBeNone) {
+  for (const std::uint16_t no_data : {0, 65535}) {
+    cv::Mat depth(60, 80, CV_16U, cv::Scalar(1500));
+    depth(cv::Rect(10, 10, 20, 20)).setTo(no_data);
+    const auto notes = open_points_in_memory(encoded(depth), "a.png")->info().notes;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& n) { return n.find("depth image") != std::string::npos; })) << no_data;
+  }
+}
+
 TEST(Image, PaperThatIsGreyIsPaper) {
-  for (const int paper : {110, 140, 180})
+  for (const int paper : {85, 110, 140, 180})
     for (const int ink : {0, 25}) {
       cv::Mat photo(300, 400, CV_8U);
       cv::theRNG().state = 1;
