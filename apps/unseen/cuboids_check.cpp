@@ -40,17 +40,26 @@ std::vector<cuboids::Block> blocks_of(const io::Assembly& assembly, double densi
   return blocks;
 }
 
+/// How fast the block moves at its rim, in the unit of the collapse motion.
+double speed_of(const cuboids::Check& check, std::size_t block, const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d reach;
+  for (const Vec3& v : mesh.vertices) reach.extend(v);
+  return std::max(check.velocity[block].norm(), check.angular_velocity[block].norm() * 0.5 * reach.diagonal().norm());
+}
+
 /// The blocks that begin to move, fastest first.
 std::string falling(const cuboids::Check& check, const std::vector<cuboids::Block>& blocks) {
   constexpr std::size_t kMost = 5;
+  constexpr double kMoves = 1e-3;  // of the fastest: less is what the solver leaves
   std::vector<std::pair<double, std::size_t>> moving;
-  for (std::size_t i = 0; i < check.velocity.size(); ++i)
-    if (const double speed = check.velocity[i].norm() + check.angular_velocity[i].norm(); speed > 0.0) moving.emplace_back(-speed, i);
+  for (std::size_t i = 0; i < check.velocity.size(); ++i) moving.emplace_back(-speed_of(check, i, blocks[i].mesh), i);
+  if (moving.empty()) return "falls";
   std::sort(moving.begin(), moving.end());
+  std::erase_if(moving, [least = kMoves * moving.front().first](const auto& block) { return block.first > least || block.first == 0.0; });
   std::vector<std::string> names;
   for (std::size_t k = 0; k < std::min(kMost, moving.size()); ++k) names.push_back(blocks[moving[k].second].name);
   if (moving.size() > kMost) names.push_back(fmt::format("{} more", moving.size() - kMost));
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names.empty() ? "falls" : fmt::format("falls; what begins to move: {}", fmt::join(names, ", "));
 }
 
 void print_verdict(const cuboids::Check& check, const std::vector<cuboids::Block>& blocks, const cuboids::CheckOptions& options) {
@@ -60,7 +69,7 @@ void print_verdict(const cuboids::Check& check, const std::vector<cuboids::Block
     fmt::print("stands: bears a sideways push of {:.3f} g, needs a friction of {:.3f} (has {:.4g})\n", s.margin,
                s.friction_needed, options.friction);
   else
-    fmt::print("falls; what begins to move: {}\n", falling(check, blocks));
+    fmt::print("{}\n", falling(check, blocks));
   fmt::print("residual {:.2g}\n", s.residual);
 }
 

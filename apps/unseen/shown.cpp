@@ -87,7 +87,7 @@ void check_unchanged(const report::InputRecord& input, const std::string& sha256
 /// photograph, and says so.
 RgbdFrame frame_of(const std::filesystem::path& folder, const report::StoredRun& run, cuboids::Completion& c, Context& context) {
   try {
-    const std::filesystem::path path = report::find_input(folder / "result.json", run.input.path);
+    const std::filesystem::path path = report::find_input(folder / "result.json", run.input, context);
     check_unchanged(run.input, io::sha256(path, context));
     return io::read_rgbd_frame(path);
   } catch (const InputError& error) {
@@ -114,7 +114,7 @@ Shown collision_result(const std::filesystem::path& folder, const report::Stored
   collision::Shot shot;
   std::vector<collision::OverlayPicture> pictures;
   try {  // without the shot the page has neither shapes nor clip, and says so
-    const std::filesystem::path path = report::find_input(folder / "result.json", run.input.path);
+    const std::filesystem::path path = report::find_input(folder / "result.json", run.input, context);
     check_unchanged(run.input, io::sha256(path, context));
     shot = report::read_shot(path);
     pictures = collision::write_overlay(shot, r, "", context);
@@ -134,7 +134,7 @@ Shown interactions_result(const std::filesystem::path& folder, const report::Sto
   std::vector<interactions::Take> takes;
   try {  // without the take the page does not show what the detector saw, and says so
     std::vector<std::string> paths = inputs;  // the record of several holds their paths
-    if (paths.size() == 1) paths[0] = report::find_input(folder / "result.json", paths[0]).string();
+    if (paths.size() == 1) paths[0] = report::find_input(folder / "result.json", run.input, context).string();
     check_unchanged(run.input, record_of(paths, context).sha256);
     takes = read_takes(paths, options, context);
   } catch (const InputError& error) {

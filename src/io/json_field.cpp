@@ -34,7 +34,7 @@ nlohmann::json parse_json(const std::string& text, const std::string& source, co
     for (const Open& object : objects) names.push_back(shortened(object.last, kLongest));
     return fmt::format("{}", fmt::join(names, "."));
   };
-  if (text.find('\0') != std::string_view::npos) throw InputError(source, "", "no text, but bytes as of a video, a picture or a binary cloud", expected);
+  if (text.find('\0') != std::string::npos) throw InputError(source, "", "no text in UTF-8, but bytes as of a video, a picture or a binary cloud", expected);
   const auto check = [&](int depth, Event event, const nlohmann::json& parsed) {
     if (depth > kDeepest && (event == Event::object_start || event == Event::array_start))
       throw InputError(source, "", fmt::format("more than {} nested levels", kDeepest), expected);

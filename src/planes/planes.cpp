@@ -106,6 +106,7 @@ Look look_at(PointSource& source, const Options& options, Context& context, Arra
 void arrange(PointSource& source, const Options& options, Context& context, const AssignmentSink& sink,
              Arrangement& result) {
   Summary& summary = result.summary;
+  if (options.scale && options.relative_scale) throw InputError("", "relative_scale", "given with scale", "one of the two");
   const AngleSet angles = angles_of(options);
   const std::optional<Vec3> viewpoint = viewpoint_of(options, source.info());
   for (const double a : options.angles) result.angles.push_back(radians(a));

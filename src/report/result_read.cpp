@@ -2,9 +2,12 @@
 // Copyright (c) 2026 the unseen authors
 #include "report/result_read.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <vector>
 
+#include "unseen/io/sha256.h"
 #include "unseen/report/stored_run.h"
 
 namespace unseen::report {
@@ -99,15 +102,17 @@ int known_id(const JsonField& json, const std::set<int>& ids) {
   return id;
 }
 
-std::filesystem::path find_input(const std::filesystem::path& result, const std::filesystem::path& path) {
-  const std::filesystem::path file = std::filesystem::absolute(result).lexically_normal();
-  std::vector<std::filesystem::path> candidates = {path};
+std::filesystem::path find_input(const std::filesystem::path& result, const InputRecord& input, const Context& context) {
+  const std::filesystem::path path = input.path, file = std::filesystem::absolute(result).lexically_normal();
+  std::vector<std::filesystem::path> candidates = {path}, there;
   for (std::filesystem::path folder = file.parent_path(); folder != folder.root_path(); folder = folder.parent_path()) candidates.push_back(folder / path);
-  candidates.push_back(file.parent_path() / path.filename());
+  if (path.has_filename()) candidates.push_back(file.parent_path() / path.filename());
   std::error_code error;
-  for (const std::filesystem::path& candidate : candidates)
-    if (std::filesystem::exists(candidate, error)) return candidate;
-  return path;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(there), [&](const auto& candidate) { return std::filesystem::exists(candidate, error); });
+  if (there.size() > 1 && !input.sha256.empty())
+    for (const std::filesystem::path& candidate : there)
+      if (io::sha256(candidate, context) == input.sha256) return candidate;
+  return there.empty() ? path : there.front();
 }
 
 StoredRun read_stored_run(const std::filesystem::path& path) {

@@ -26,14 +26,18 @@ constexpr double kAfterMeeting = 0.5;  // s: what a shot without a duration show
 
 fs::path result_file(const fs::path& named) { return fs::is_directory(named) ? named / "result.json" : named; }
 
+/// Whether a result goes by the name of its folder, and not of its file.
+bool is_result(const fs::path& named) { return result_file(named).filename() == "result.json"; }
+
 fs::path folder_of(const fs::path& result) { return fs::absolute(result_file(result)).lexically_normal().parent_path(); }
 
 /// The shot that a result was made from, unless another file is named. Its path is relative to where the result was made: here, or in
 /// a folder that holds the result's.
 Shot shot_of(const fs::path& result, const fs::path& named) {
   if (!named.empty()) return read_shot(named);
-  const fs::path path = read_stored_run(result).input.path;
-  if (const fs::path found = find_input(result, path); fs::is_regular_file(found)) return read_shot(found);
+  const InputRecord input = read_stored_run(result).input;
+  const fs::path path = input.path;
+  if (const fs::path found = find_input(result, input, {}); fs::is_regular_file(found)) return read_shot(found);
   throw InputError(result.string(), "input.path", path.string() + ", which does not exist", "the SHOT.json of the result; a shot list names it as shot = \"…\"");
 }
 
@@ -41,7 +45,7 @@ StagedCollision read_collision(const fs::path& result, const fs::path& shot) {
   StagedCollision c;
   const fs::path file = result_file(result), folder = folder_of(result);
   if (!fs::is_regular_file(file)) throw InputError(file.string(), "file", "none", "the result of unseen collision");
-  c.name = file.filename() == "result.json" ? folder.filename().string() : file.stem().string();
+  c.name = is_result(file) ? folder.filename().string() : file.stem().string();
   c.file = file.string();
   c.result = read_collision_result(file);
   c.shot = shot_of(file, shot);
@@ -185,8 +189,9 @@ StagePlan stage_side_by_side(const std::vector<std::string>& results) {
     const auto taken = [&](const std::string& name) {
       return std::any_of(plan.collisions.begin(), plan.collisions.end(), [&](const StagedCollision& o) { return o.name == name; });
     };
-    const auto alike = [&](const std::string& other) { return folder_of(other).filename() == folder_of(result).filename(); };
-    if (std::count_if(results.begin(), results.end(), alike) > 1) c.name = folder_of(result).parent_path().filename().string();  // each shot has its "result"
+    const auto alike = [&](const std::string& other) { return is_result(other) && folder_of(other).filename() == folder_of(result).filename(); };
+    if (is_result(result) && std::count_if(results.begin(), results.end(), alike) > 1)  // each shot's folder has its "result"
+      c.name = folder_of(result).parent_path().filename().string();
     const std::string name = c.name.empty() ? "collision" : c.name;
     c.name = name;
     for (int i = 2; taken(c.name); ++i) c.name = fmt::format("{}-{}", name, i);

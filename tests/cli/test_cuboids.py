@@ -191,7 +191,7 @@ class Check(CliTest):
         self.assembly(2.2)  # its centre is beyond the beam's end at 2 m
         run = self.unseen("cuboids", "--check", "a.json", "--support", "beam")
         self.assertEqual((run.returncode, run.stderr), (4, ""))
-        self.assertIn("falls; what begins to move: 7", run.stdout)
+        self.assertIn("falls; what begins to move: 7\n", run.stdout)
 
     def test_json(self):
         self.assembly(0.5, supports=["beam"])

@@ -129,6 +129,18 @@ TEST(Tags, AGhostBelowTheFloorTakesNothingFromIt) {
   EXPECT_EQ(tags(all), expected);
 }
 
+TEST(Tags, HousesFromAboveEndTheScene) {
+  Arrangement all;
+  add(all, {0, 0, 0}, Vec3(300, 0, 0), Vec3(0, 300, 0));
+  for (int i = 0; i < 20; ++i) {
+    add(all, {14.0 * i, 40, 7}, Vec3(10, 0, 0), Vec3(0, 8, 0));
+    add(all, {14.0 * i, 40, 0}, Vec3(10, 0, 0), Vec3(0, 0, 7));
+  }
+  const std::vector<std::string> found = tags(all);
+  EXPECT_EQ(found[0], "floor");
+  EXPECT_EQ(found[2], "wall");
+}
+
 TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
   Arrangement all;
   for (int i = 0; i < 12; ++i) add(all, {0.28 * i, 0, 0.17 * i}, Vec3(0.3, 0, 0), Vec3(0, 1, 0));
@@ -136,7 +148,7 @@ TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
   EXPECT_EQ(std::count(found.begin() + 2, found.end() - 2, "horizontal"), 8);
 }
 
-/// Level planes 0.1 m apart, of whose points the first lie on theirs, the second beside it, and of the third there are two.
+/// Of a room that is turned.
 std::size_t warnings_of_up(const Eigen::Matrix3d& turn) {
   Arrangement all;
   for (const auto& [corner, a, b] : {std::tuple(Vec3(0, 0, 0), Vec3(8, 0, 0), Vec3(0, 6, 0)), {Vec3(0, 0, 2.7), Vec3(8, 0, 0), Vec3(0, 6, 0)},
@@ -155,6 +167,7 @@ TEST(Tags, AScanThatIsTurnedIsSaidToBe) {
   EXPECT_EQ(warnings_of_up((Eigen::AngleAxisd(kPi / 2, Vec3::UnitX()) * Eigen::AngleAxisd(0.3, Vec3::UnitZ())).matrix()), 1u) << "y is up, walls askew";
 }
 
+/// Level planes 0.1 m apart, of whose points the first lie on theirs, the second beside it, and of the third there are two.
 TEST(Describe, LeavesOutWhatLiesOffItsPointsOrHasNone) {
   PointCloud cloud;
   Random random(1);

@@ -14,7 +14,7 @@ namespace unseen::planes {
 /// user may know better. Angles are in degrees here, as in files and on the command line.
 struct Options {
   std::optional<double> scale;           ///< ρ, m: what is larger is kept; also the measurement tolerance
-  std::optional<double> relative_scale;  ///< ρ as a share of the longest edge of the bounding box
+  std::optional<double> relative_scale;  ///< ρ as a share of the longest edge of the bounding box; instead of scale
   std::vector<double> angles = {90.0};   ///< deg, generators of Θ (thesis Section 3.4)
   double lambda = 0.5;                   ///< λ, Eq. 3.1: 1 keeps every local fit, 0 asks for one frame
   double patch_angle = 15.0;             ///< deg, τ: how far a normal may turn within a patch, and a candidate from its patch

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "unseen/core/context.h"
 #include "unseen/core/options.h"
 #include "unseen/core/summary.h"
 
@@ -30,9 +31,9 @@ struct StoredRun {
 /// Reads that part of a result.json of any capability. Throws InputError naming file and field.
 StoredRun read_stored_run(const std::filesystem::path& path);
 
-/// Where the input of a result lies: as the caller gave it, or as seen from one of the folders above the result, or beside it; the path as
-/// it was given if it is nowhere.
-std::filesystem::path find_input(const std::filesystem::path& result, const std::filesystem::path& path);
+/// Where the input of a result lies: as the caller gave it, or as seen from one of the folders above the result, or beside it. The first with the
+/// recorded content, or else the first that is there; the path as it was given if there is none.
+std::filesystem::path find_input(const std::filesystem::path& result, const InputRecord& input, const Context& context);
 
 /// A count of the summary by its name, 0 if there is none.
 std::size_t count_of(const Summary& summary, std::string_view name);

@@ -88,13 +88,12 @@ void warn_of_up(const Arrangement& result, Context& context) {
   for (const ArrangedPlane& p : result.planes) {
     all += p.area;
     if (p.tag == "sloped") sloped += p.area;
-    else if (p.tag != "wall" && p.tag != "vertical") level += p.area;
+    else if (p.tag == "floor" || p.tag == "ceiling" || p.tag == "horizontal") level += p.area;
   }
   if (level < kSome * all)
-    context.warn(fmt::format("tags count z as up, and no plane {}is level along it: if another axis is up, turn the scan so that z is",
-                             level > 0 ? "of note " : ""));
+    context.warn("no plane is level with z up, which tags count on: right for a facade alone; otherwise turn the scan so that z is up");
   else if (sloped > kMost * all)
-    context.warn("tags count z as up, and most planes are neither level nor plumb along it: if this is no landscape, turn the scan so that z is up");
+    context.warn("most planes are neither level nor plumb with z up, which tags count on: right for a landscape; otherwise turn the scan so that z is up");
 }
 
 void warn_of_curves(const Patches& patches, const Space& space, Context& context) {

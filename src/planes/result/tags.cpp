@@ -25,7 +25,7 @@ constexpr double kPlumb = 0.5 * kPi / 180.0;  // a wall that leans by more does 
 constexpr double kSpeak = 0.5;    // of the most area of walls that speak for one: as much speaks for another as well
 constexpr double kSteep = 75 * kPi / 180.0;  // from a direction: walls, plumb along it or not
 constexpr double kSomeWalls = 0.05;  // of the area of these: what is less speaks for nothing, as a crate that lies askew before a facade
-constexpr double kSliver = 0.02;  // of the largest level plane's area: what is smaller, as ghosts of a mirror below a floor, ends no scene
+constexpr double kSliver = 0.02;  // of the largest level plane's area, and of the walls': what is smaller, as ghosts of a mirror below a floor, ends no scene
 constexpr std::size_t kMostUps = 20;  // directions with the most area that may be the vertical
 
 /// What a plane's outline reaches, along two level axes and upward.
@@ -130,14 +130,15 @@ void tag_planes(Arrangement& result) {
   Mat3 axes;
   axes << u, up.cross(u), up;
   std::vector<Bounds> bounds;
-  double largest = 0;
+  double largest = 0, walls = 0;
   for (const ArrangedPlane& p : result.planes) {
     bounds.push_back(bounds_of(p, axes));
     if (line_angle(p.plane.normal, up) < kLevel) largest = std::max(largest, p.area);
+    if (line_angle(p.plane.normal, up) > kPi / 2 - kLevel) walls += p.area;
   }
   double low = kNowhere, high = -kNowhere;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (result.planes[i].area < kSliver * largest) continue;
+    if (result.planes[i].area < kSliver * std::min(largest, walls)) continue;
     low = std::min(low, bounds[i].low.z());
     high = std::max(high, bounds[i].high.z());
   }

@@ -72,7 +72,6 @@ Scale choose_scale(PointSource& source, const Survey& survey, const Space& space
                    Context& context) {
   const double extent = survey.extent();
   Scale scale;
-  if (options.scale && options.relative_scale) throw InputError("", "relative_scale", "one beside scale", "one of the two");
   if (options.scale) {
     scale = {*options.scale, *options.scale};
   } else if (options.relative_scale) {
