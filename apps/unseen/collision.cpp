@@ -31,14 +31,6 @@ struct CollisionArguments {
   collision::Options options;
 };
 
-/// A standard deviation says something where the interval has one of about that width to either side.
-std::string text_of(const collision::Estimate& e) {
-  const int digits = e.sd >= 0.001 ? 3 : 4;
-  const bool even = e.low <= e.value - e.sd && e.value + e.sd <= e.high;
-  const std::string interval = fmt::format("95 %: {:.{}f}…{:.{}f}", e.low, digits, e.high, digits);
-  return even ? fmt::format("{:.{}f} ± {:.{}f} ({})", e.value, digits, e.sd, digits, interval) : fmt::format("{:.{}f} ({})", e.value, digits, interval);
-}
-
 void print_impacts(const collision::Reconstruction& r) {
   if (r.impacts.empty()) {
     fmt::print("no collision found\n");
@@ -55,9 +47,9 @@ void print_impacts(const collision::Reconstruction& r) {
 
 void print_summary(const collision::Reconstruction& r, const CollisionArguments& args) {
   print_impacts(r);
-  fmt::print("restitution: {}\n", r.restitution ? text_of(*r.restitution) : "no confident value");
+  fmt::print("restitution: {}\n", r.restitution ? report::estimate_text(*r.restitution) : "no confident value");
   if (r.fixed.empty() && r.bodies.size() == 2)
-    fmt::print("mass of {} to {}: {}\n", r.bodies[1].name, r.bodies[0].name, r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
+    fmt::print("mass of {} to {}: {}\n", r.bodies[1].name, r.bodies[0].name, r.mass_ratio ? report::estimate_text(*r.mass_ratio) : "no confident value");
   if (r.restitution)
     fmt::print("kinetic energy: {:.0f} % kept\n", 100.0 * r.energy_after / r.energy_before);
   if (!r.frames.empty())

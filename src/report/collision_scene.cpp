@@ -70,17 +70,11 @@ void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
   add_table(scene, "What the clip tells", {column("remark")}, std::move(weak));
 }
 
-/// With as many digits as the deviation has to say something with, three at least.
-std::string text_of(const Estimate& e) {
-  const int digits = e.sd >= 0.001 ? 3 : 4;
-  return fmt::format("{:.{}f} (95 %: {:.{}f}…{:.{}f})", e.value, digits, e.low, digits, e.high, digits);
-}
-
 Json facts_of(const Reconstruction& r) {
   Json facts = Json::array();
   const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
-  fact("restitution", r.restitution ? text_of(*r.restitution) : "no confident value");
-  if (r.fixed.empty() && r.bodies.size() == 2) fact(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), r.mass_ratio ? text_of(*r.mass_ratio) : "no confident value");
+  fact("restitution", r.restitution ? estimate_text(*r.restitution) : "no confident value");
+  if (r.fixed.empty() && r.bodies.size() == 2) fact(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), r.mass_ratio ? estimate_text(*r.mass_ratio) : "no confident value");
   if (!r.frames.empty()) fact("the model fits", r.fits ? "yes" : "no");
   if (!r.ambiguous.empty()) fact("ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"));
   fact(r.fits ? "impacts" : "impacts looked for", std::to_string(r.impacts.size()));
@@ -104,6 +98,13 @@ std::optional<Json> focus_of(const Reconstruction& r) {
 }
 
 }  // namespace
+
+std::string estimate_text(const Estimate& e) {
+  const int digits = e.sd >= 0.001 ? 3 : 4;
+  const bool even = e.low <= e.value - e.sd && e.value + e.sd <= e.high;
+  const std::string deviation = even ? fmt::format(" ± {:.{}f}", e.sd, digits) : "";
+  return fmt::format("{:.{}f}{} (95 %: {:.{}f}…{:.{}f})", e.value, digits, deviation, e.low, digits, e.high, digits);
+}
 
 std::string collision_scene(const Reconstruction& r, const InputRecord& input, const OptionTable& options, const std::string& command,
                             const Shot& shot, const std::vector<OverlayPicture>& pictures) {

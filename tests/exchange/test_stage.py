@@ -141,6 +141,19 @@ class Staging(unittest.TestCase):
         scene, = scenes_of(self.folder / "side.html")
         self.assertEqual(scene.header["command"], "unseen stage x y/result.json -o side")
 
+    def test_results_in_folders_of_one_name_are_called_by_the_folder_above(self):
+        result = json.loads((self.folder / "two/result.json").read_text())
+        result["input"]["path"] = str(self.folder / "shot.json")
+        for name in ("ducks", "rugby"):
+            (self.folder / name / "result").mkdir(parents=True)
+            (self.folder / name / "result/result.json").write_text(json.dumps(result))
+            (self.folder / "ducks" / f"{name}.json").write_text(json.dumps(result))
+        for inputs, names in ((("ducks/result", "rugby/result"), ["ducks", "rugby"]), (("ducks/ducks.json", "ducks/rugby.json"), ["ducks", "rugby"]),
+                              (("ducks/result", "ducks/result"), ["ducks", "ducks-2"])):
+            subprocess.run([os.environ["UNSEEN"], "stage", *inputs, "-o", "named"], cwd=self.folder, capture_output=True, check=True, timeout=120)
+            staged = json.loads((self.folder / "named/result.json").read_text())
+            self.assertEqual([p["name"] for p in staged["collisions"]], names)
+
     def test_results_are_staged_from_any_folder(self):
         made = self.folder / "made"
         (made / "films" / "out").mkdir(parents=True)

@@ -22,4 +22,8 @@ std::string collision_scene(const collision::Reconstruction& reconstruction, con
 /// "Collision of shot.json"
 std::string collision_title(const InputRecord& input);
 
+/// "0.700 ± 0.010 (95 %: 0.680…0.719)", with as many digits as the deviation has to say something with, three at least; without the deviation where the
+/// interval is so uneven that it ends within one.
+std::string estimate_text(const collision::Estimate& e);
+
 }  // namespace unseen::report
