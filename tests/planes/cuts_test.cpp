@@ -23,16 +23,10 @@ VoxelGrid strip(const std::function<double(double, double)>& profile, double noi
   return test::grid_of(cloud, 0.1);
 }
 
-CellSets pieces_of(const VoxelGrid& grid) {
-  std::vector<int> region(grid.size());
-  std::iota(region.begin(), region.end(), 0);
-  return best_cut(grid, {}, region);
-}
-
 /// The cut of a strip along x: where the voxels of its two sides lie, dm, ascending.
 std::pair<std::vector<int>, std::vector<int>> cut_of_strip(const std::function<double(double)>& profile) {
   const VoxelGrid grid = strip([&](double x, double) { return profile(x); }, 0.005);
-  CellSets sides = pieces_of(grid);
+  CellSets sides = test::pieces_of(grid);
   if (sides.empty()) return {};
   for (std::vector<int>& side : sides) {
     for (int& voxel : side) voxel = static_cast<int>(std::lround(10 * grid.moments[voxel].mean.x()));
@@ -88,7 +82,7 @@ bool on_panel(double x, double y) { return y > 0.7 && y < 2.8 && ((x > 0.6 && x 
 // No straight line parts panels from the roof around them; and one plane of both is tilted, as they do not lie in its middle.
 TEST(Cuts, PanelsOnARoofAreIslands) {
   const VoxelGrid grid = strip([](double x, double y) { return on_panel(x, y) ? 0.12 : 0.0; }, 0.016);
-  CellSets pieces = pieces_of(grid);
+  CellSets pieces = test::pieces_of(grid);
   ASSERT_EQ(pieces.size(), 3u);
   std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.size() > b.size(); });
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -99,10 +93,10 @@ TEST(Cuts, PanelsOnARoofAreIslands) {
 }
 
 TEST(Cuts, WhatIsRoughHasNoIslands) {
-  EXPECT_TRUE(pieces_of(strip([](double, double) { return 0.0; }, 0.08)).empty());
-  EXPECT_TRUE(pieces_of(strip([](double x, double y) { return on_panel(x, y) ? 0.06 : 0.0; }, 0.03)).empty()) << "two standard deviations";
+  EXPECT_TRUE(test::pieces_of(strip([](double, double) { return 0.0; }, 0.08)).empty());
+  EXPECT_TRUE(test::pieces_of(strip([](double x, double y) { return on_panel(x, y) ? 0.06 : 0.0; }, 0.03)).empty()) << "two standard deviations";
   Random random(3);  // one point in ten lies higher, anywhere
-  EXPECT_TRUE(pieces_of(strip([&](double, double) { return random.uniform() < 0.1 ? 0.15 : 0.0; }, 0.01)).empty());
+  EXPECT_TRUE(test::pieces_of(strip([&](double, double) { return random.uniform() < 0.1 ? 0.15 : 0.0; }, 0.01)).empty());
 }
 
 }  // namespace

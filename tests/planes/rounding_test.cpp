@@ -5,7 +5,6 @@
 
 #include <set>
 
-#include "planes/patches/cuts.h"
 #include "planes/scan/scale.h"
 #include "planes/scenes.h"
 
@@ -70,15 +69,14 @@ TEST(Rounding, StepsAreFoundAndNoneInFewPlaces) {
 
 /// A wall that rises by less than a step lies on two levels of the raster.
 TEST(Rounding, LevelsAreNoIslands) {
-  for (const double rise : {0.5, 0.8, 1.5}) {
+  for (const double rise : {0.8, 1.5}) {
     PointCloud cloud;
     Random random(4);
-    test::add_rectangle(cloud, {0, 0, 0}, {3, 0, rise * 0.04}, {0, 2, 0}, 0.02, 0.001, random);
-    VoxelGrid grid = test::grid_of(rounded(cloud, 0.04), 0.05);
+    test::add_rectangle(cloud, {0, 0, 0}, {3, 0, rise * 0.04}, {0, 2, 0}, 0.02, 0.0, random);
+    VoxelGrid grid = test::grid_of(rounded(cloud, 0.04), 0.06);
+    EXPECT_FALSE(test::pieces_of(grid).empty()) << rise << ": two levels, where nothing says that they are steps of rounding";
     grid.raster = grid.rounding = 0.04;
-    std::vector<int> region(grid.size());
-    std::iota(region.begin(), region.end(), 0);
-    EXPECT_TRUE(best_cut(grid, {}, region).empty()) << rise;
+    EXPECT_TRUE(test::pieces_of(grid).empty()) << rise;
   }
 }
 

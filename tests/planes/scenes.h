@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "planes/patches/patches.h"
+#include "planes/patches/cuts.h"
 #include "planes/scan/cells.h"
 #include "planes/scan/voxels.h"
 #include "unseen/core/point_cloud.h"
@@ -83,6 +83,13 @@ inline VoxelGrid grid_of(const PointCloud& cloud, double edge) {
   VoxelBuilder builder(edge);
   builder.add(cloud);
   return VoxelGrid(builder);
+}
+
+/// The pieces that a grid as a whole is cut into.
+inline CellSets pieces_of(const VoxelGrid& grid) {
+  std::vector<int> region(grid.size());
+  std::iota(region.begin(), region.end(), 0);
+  return best_cut(grid, {}, region);
 }
 
 /// The cloud as a source that streams blocks and cannot be looked at as a whole.

@@ -136,9 +136,11 @@ TEST(Tags, HousesFromAboveEndTheScene) {
     add(all, {14.0 * i, 40, 7}, Vec3(10, 0, 0), Vec3(0, 8, 0));
     add(all, {14.0 * i, 40, 0}, Vec3(10, 0, 0), Vec3(0, 0, 7));
   }
+  add(all, {0, 20, 0}, Vec3(30, 0, 0), Vec3(0, 0, 1));  // of a garden
   const std::vector<std::string> found = tags(all);
   EXPECT_EQ(found[0], "floor");
   EXPECT_EQ(found[2], "wall");
+  EXPECT_EQ(found.back(), "vertical");
 }
 
 TEST(Tags, StepsAreNeitherFloorsNorCeilings) {
