@@ -180,6 +180,7 @@ TEST(Image, BroadAreasAreOutlined) {
   const PointCloud cloud = read_all(*source);
   const std::size_t frame = 240u * 180u - 232u * 172u;
   EXPECT_EQ(cloud.size(), frame + 24u * 140u - 22u * 138u);
+  ASSERT_EQ(source->info().notes.size(), 2u);
   EXPECT_NE(source->info().notes[1].find("broader than 12 pixels"), std::string::npos);
   cv::Mat turned(300, 300, CV_8U, cv::Scalar(255));
   const auto across = [](double x, double y) { return std::abs(x - 2.0 * y) / std::sqrt(5.0); };
