@@ -4,9 +4,13 @@
 
 #include <sys/mman.h>
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <fstream>
+#include <mutex>
 #include <string>
+#include <utility>
 
 namespace unseen {
 namespace {
@@ -14,6 +18,42 @@ namespace {
 constexpr std::size_t kPage = std::size_t{1} << 21;
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) & ~(kPage - 1); }
+
+/// Parts of large pages, each of a power of two of bytes.
+class Parts {
+ public:
+  void* take(std::size_t bytes) {
+    const std::size_t size = std::bit_ceil(bytes);
+    const std::lock_guard lock(mutex_);
+    Free*& first = free_[std::bit_width(size)];
+    if (first != nullptr) return std::exchange(first, first->next);
+    if (size > left_) {
+      page_ = static_cast<char*>(take_large_pages(kPage));
+      left_ = kPage;
+    }
+    left_ -= size;
+    return page_ + left_;
+  }
+  void give_back(void* part, std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    Free*& first = free_[std::bit_width(std::bit_ceil(bytes))];
+    first = new (part) Free{first};
+  }
+
+ private:
+  struct Free {
+    Free* next;
+  };
+  std::mutex mutex_;
+  std::array<Free*, 64> free_{};  // by the bits of their size
+  char* page_ = nullptr;          // the latest, whose first bytes are
+  std::size_t left_ = 0;
+};
+
+Parts& parts() {
+  static Parts& all = *new Parts;  // never destroyed: arrays may end after it would
+  return all;
+}
 
 }  // namespace
 
@@ -44,5 +84,8 @@ void* take_large_pages(std::size_t bytes) {
 }
 
 void return_large_pages(void* begin, std::size_t bytes) { munmap(begin, whole_pages(bytes)); }
+
+void* take_part_of_page(std::size_t bytes) { return parts().take(bytes); }
+void return_part_of_page(void* begin, std::size_t bytes) { parts().give_back(begin, bytes); }
 
 }  // namespace unseen

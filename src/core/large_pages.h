@@ -13,6 +13,11 @@ void* take_large_pages(std::size_t bytes);
 void return_large_pages(void* begin, std::size_t bytes);
 bool has_large_pages();
 
+/// A part of a large page, of at least `bytes` (≤ kLargestPart). Parts that were returned are taken again: they never go back to the system.
+void* take_part_of_page(std::size_t bytes);
+void return_part_of_page(void* begin, std::size_t bytes);
+constexpr std::size_t kLargestPart = std::size_t{1} << 21;
+
 /// Memory of arrays that are filled once: to fill a page of 4 kB costs less than the fault of its first touch,
 /// and large pages have a five hundredth of the faults. Small arrays are allocated as ever.
 template <class T>
@@ -22,19 +27,22 @@ struct LargePages {
   template <class U>
   LargePages(const LargePages<U>&) {}
 
-  static bool large(std::size_t count) { return count >= kLeast / sizeof(T) && has_large_pages(); }
   T* allocate(std::size_t count) {
     if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
-    return static_cast<T*>(large(count) ? take_large_pages(count * sizeof(T)) : ::operator new(count * sizeof(T)));
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < kLeast || !has_large_pages()) return static_cast<T*>(::operator new(bytes));
+    return static_cast<T*>(bytes > kLargestPart ? take_large_pages(bytes) : take_part_of_page(bytes));
   }
   void deallocate(T* begin, std::size_t count) {
-    if (large(count)) return return_large_pages(begin, count * sizeof(T));
-    ::operator delete(begin);
+    const std::size_t bytes = count * sizeof(T);
+    if (bytes < kLeast || !has_large_pages()) return ::operator delete(begin);
+    if (bytes > kLargestPart) return_large_pages(begin, bytes);
+    else return_part_of_page(begin, bytes);
   }
   bool operator==(const LargePages&) const { return true; }
 
  private:
-  static constexpr std::size_t kLeast = std::size_t{1} << 19;  // bytes
+  static constexpr std::size_t kLeast = std::size_t{1} << 13;  // bytes
 };
 
 template <class T>

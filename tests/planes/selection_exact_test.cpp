@@ -32,8 +32,8 @@ TEST(SolveExact, FindsTheOptimumFromAPoorStart) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     SelectionProblem p = test::random_problem(5, 3, 0.5, static_cast<int>(seed % 2), seed);
     if (seed > 2) {  // so much that its cost bends, and yet several frames are worth it
-      p.irregularity *= 20;
-      p.data *= 30;
+      p.irregularity.transform([](double x) { return 20 * x; });
+      p.data.transform([](double x) { return 30 * x; });
     }
     Labels start;
     for (int j = 0; j < p.patches(); ++j) start.push_back(p.frames() - p.patches() + j);

@@ -22,8 +22,8 @@ inline SelectionProblem random_problem(int patches, int frames, double lambda, i
   const int all = frames + patches;  // the last ones are local fits
   std::vector<double> angle;
   for (int k = 0; k < frames; ++k) angle.push_back(random.uniform(0, 45));
-  p.data.resize(patches, all);
-  p.orientation.resize(patches, all);
+  p.data = Table<double>(patches, all, 0.0);
+  p.orientation = Table<int>(patches, all, -1);
   for (int j = 0; j < patches; ++j) {
     const double own = angle[random.index(frames)] + 1.5 * random.normal(), sigma = random.uniform(0.5, 3);
     angle.push_back(own);
@@ -37,7 +37,7 @@ inline SelectionProblem random_problem(int patches, int frames, double lambda, i
     for (int o = 0; o < j; ++o)
       if (random.uniform() < 3.0 / patches) p.neighbours.emplace_back(o, j);
   }
-  p.irregularity.setZero(all, all);
+  p.irregularity = Table<double>(all, all, 0.0);
   for (int a = 0; a < all; ++a)
     for (int b = 0; b < a; ++b) {
       const double x = angle.size() > static_cast<std::size_t>(a) ? std::abs(angle[a] - angle[b]) : 10;

@@ -32,12 +32,13 @@ TEST(EnergyOf, IsTheDefinition) {
 TEST(EnergyOf, PartsAreWeighted) {
   SelectionProblem p;
   p.lambda = 0.25;
-  p.data.resize(2, 2);
-  p.data << 1, 2, 3, 4;
-  p.orientation.resize(2, 2);
-  p.orientation << 0, 1, 0, 1;
-  p.irregularity.resize(2, 2);
-  p.irregularity << 0, 0.4, 0.4, 0;
+  p.data = Table<double>(2, 2, 0.0);
+  for (int j = 0; j < 2; ++j)
+    for (int k = 0; k < 2; ++k) p.data(j, k) = 2 * j + k + 1;
+  p.orientation = Table<int>(2, 2, 0);
+  p.orientation(0, 1) = p.orientation(1, 1) = 1;
+  p.irregularity = Table<double>(2, 2, 0.0);
+  p.irregularity(0, 1) = p.irregularity(1, 0) = 0.4;
   p.fixed = {0, 0};
   p.neighbours = {{0, 1}};
   const Energy e = energy_of(p, {0, 1});

@@ -42,8 +42,8 @@ struct Value {
   double count = 0;
 };
 
-std::vector<Value> values_of(const std::vector<double>& sorted, double apart) {
-  std::vector<Value> values;
+LargeVector<Value> values_of(const LargeVector<double>& sorted, double apart) {
+  LargeVector<Value> values;
   for (const double x : sorted) {
     if (values.empty() || x - values.back().high > apart) values.push_back({x, x});
     values.back().high = x;
@@ -81,10 +81,11 @@ bool is_of_depth(const std::vector<Probe>& probes, const Vec3& axis, const Space
 /// The levels of points along an axis, if much of them lie on values that stand out among those `least` (m) away and less.
 std::optional<Levels> find_levels(const LargeVector<Vec3>& points, const Vec3& axis, double least) {
   const std::size_t every = points.size() / kMostLookedAt + 1;
-  std::vector<double> along;
+  LargeVector<double> along;
+  along.reserve(points.size() / every + 1);
   for (std::size_t i = 0; i < points.size(); i += every) along.push_back(axis.dot(points[i]));
   std::sort(along.begin(), along.end());
-  const std::vector<Value> values = values_of(along, kApart * least);
+  const LargeVector<Value> values = values_of(along, kApart * least);
   Levels levels{axis, {}};
   const double most = kMostOnLevel * static_cast<double>(along.size());
   double on_levels = 0, beside = 0;

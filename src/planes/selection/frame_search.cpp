@@ -19,9 +19,10 @@ FrameSearch::FrameSearch(const SelectionProblem& problem, const Context& context
     : p_(problem),
       context_(context),
       offers_(offers_of(problem)),
-      cost_((problem.lambda * problem.data).cwiseMin(kImpossible)),
+      cost_(problem.data),
       near_(problem.patches()),
       offers_to_(problem.patches()) {
+  cost_.transform([&](double data) { return std::min(p_.lambda * data, kImpossible); });
   for (int k = 0; k < p_.frames(); ++k)
     for (const Offer& o : offers_[k]) offers_to_[o.patch].emplace_back(k, o.cost);
   for (const auto& [a, b] : p_.neighbours) {

@@ -83,7 +83,7 @@ class FrameSearch {
   const SelectionProblem& p_;
   const Context& context_;
   const Offers offers_;
-  const Eigen::MatrixXd cost_;          ///< λ·D, patches × frames, with a large number for infinite
+  Table<double> cost_;                  ///< λ·D, patches × frames, with a large number for infinite
   std::vector<std::vector<int>> near_;
   std::vector<std::vector<std::pair<int, double>>> offers_to_;  ///< of each patch: frame and cost
 };

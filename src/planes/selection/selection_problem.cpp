@@ -14,9 +14,9 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
   SelectionProblem p;
   p.lambda = lambda;
   const int rows = static_cast<int>(members.size()), cols = static_cast<int>(frames.size()), old = known.frames();
-  p.data.resize(rows, cols);
-  p.orientation.setConstant(rows, cols, -1);
-  p.irregularity.setZero(cols, cols);
+  p.data = Table<double>(rows, cols, 0.0);
+  p.orientation = Table<int>(rows, cols, -1);
+  p.irregularity = Table<double>(cols, cols, 0.0);
   p.fixed.assign(cols, 0);
   std::fill(p.fixed.begin(), p.fixed.begin() + static_cast<std::ptrdiff_t>(fixed), 1);
 
@@ -31,11 +31,9 @@ SelectionProblem make_problem(const Patches& patches, const std::vector<int>& me
       orientation_of[k].push_back(static_cast<int>(it - orientations.begin()));
       if (it == orientations.end()) orientations.push_back(n);
     }
-  if (old > 0) {  // empty matrices do not fit, not even into nothing
-    p.data.leftCols(old) = known.data;
-    p.orientation.leftCols(old) = known.orientation;
-    p.irregularity.topLeftCorner(old, old) = known.irregularity;
-  }
+  p.data.set_corner(known.data);
+  p.orientation.set_corner(known.orientation);
+  p.irregularity.set_corner(known.irregularity);
   parallel_blocks(context, cols - old, 8, [&](std::size_t begin, std::size_t end) {
     for (int k = old + static_cast<int>(begin); k < old + static_cast<int>(end); ++k) {
       for (int j = 0; j < rows; ++j) {
