@@ -51,13 +51,15 @@ void print_summary(const cuboids::Completion& c, const CuboidsArguments& args) {
     std::vector<std::string> supports;
     for (const cuboids::Support& s : c.supports)
       supports.emplace_back(cuboids::kSupportKinds[static_cast<int>(s.kind)]);
-    fmt::print("{} ({}), {} completed into the hidden part: {:.3g} l\n", plural(c.cuboids.size(), "box", "boxes"),
-               fmt::join(supports, ", "), completed, 1000.0 * c.extended_volume);
+    fmt::print("{} ({}), {} completed into the hidden part: {}\n", plural(c.cuboids.size(), "box", "boxes"),
+               fmt::join(supports, ", "), completed, report::volume_text(c.extended_volume));
     fmt::print("{}, {} fixed{}\n", plural(c.contacts.size(), "contact", "contacts"), c.fixed_contacts,
                c.search.optimal ? " (proven to be the fewest)" : "");
+    const std::string doubt = c.may_move.empty() ? "" : fmt::format(", {} doubtfully", plural(c.may_move.size(), "box", "boxes"));
     if (c.stability.stable)
-      fmt::print("{}: bears a sideways push of {:.2f} g, needs a friction of {:.2f} (has {:.4g})\n",
-                 c.unsupported.empty() ? "stands" : "what is supported stands", c.stability.margin, c.stability.friction_needed, args.options.method.friction);
+      fmt::print("{}{}: bears a sideways push of {:.2f} g, needs a friction of {:.2f} (has {:.4g})\n",
+                 c.unsupported.empty() ? "stands" : "what is supported stands", doubt, c.stability.margin, c.stability.friction_needed,
+                 args.options.method.friction);
     else if (c.unsupported.size() + c.held_outside.size() < c.cuboids.size())
       fmt::print("does not stand: residual {:.2g} (limit {:.2g})\n", c.stability.residual,
                  args.options.method.stable_residual);
@@ -153,7 +155,8 @@ Command add_cuboids(CLI::App& app, const std::string& shell_command) {
   sub->add_option_function<std::string>(
          "--mu", [&given = args->given](const std::string& text) { given.emplace_back("friction", text); },
          "the same as --friction")
-      ->type_name("X");
+      ->type_name("X")
+      ->excludes("--friction");
   add_flags(*sub, args->applications);
   sub->add_option("--check", args->check.assembly, "only say whether an assembly of blocks stands; exit code 4 if not")
       ->type_name("ASSEMBLY.json");

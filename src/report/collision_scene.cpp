@@ -16,18 +16,23 @@ using namespace collision;
 
 Json or_null(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
-Json row_of(std::string_view name, const Estimate& e) { return {name, number(e.value), number(e.sd), number(e.low), number(e.high)}; }
+int digits_of(const Estimate& e) { return e.sd >= 0.001 ? 3 : 4; }
+
+/// "0.752…0.767"
+std::string interval_text(const Estimate& e) { return fmt::format("{:.{}f}…{:.{}f}", e.low, digits_of(e), e.high, digits_of(e)); }
+
+Json row_of(std::string_view name, const Estimate& e) { return {name, number(e.value), interval_text(e), number(e.sd)}; }
 
 void add_value_table(SceneBuilder& scene, const Reconstruction& r) {
   Json rows = Json::array();
   if (r.restitution) rows.push_back(row_of("restitution", *r.restitution));
   if (r.mass_ratio) rows.push_back(row_of(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), *r.mass_ratio));
   if (r.restitution) {
-    const auto energy = [&](const char* when, double value) { rows.push_back({fmt::format("energy {}, J/kg", when), number(value), nullptr, nullptr, nullptr}); };
+    const auto energy = [&](const char* when, double value) { rows.push_back({fmt::format("energy {}, J/kg", when), number(value), nullptr, nullptr}); };
     energy("before", r.energy_before);
     energy("after", r.energy_after);
   }
-  add_table(scene, "Values", {column("value of"), column("value", "", 4), column("sd", "", 4), column("95 % from", "", 4), column("to", "", 4)}, std::move(rows));
+  add_table(scene, "Values", {column("value of"), column("value", "", 4), column("95 %"), column("sd", "", 4)}, std::move(rows));
 }
 
 void add_impact_table(SceneBuilder& scene, const Reconstruction& r) {
@@ -39,10 +44,10 @@ void add_impact_table(SceneBuilder& scene, const Reconstruction& r) {
   }
   Json rows = Json::array();
   for (const Impact& i : r.impacts)
-    rows.push_back({number(i.frame), number(i.time), number(i.restitution.value), number(i.restitution.low), number(i.restitution.high),
+    rows.push_back({number(i.frame), number(i.time), number(i.restitution.value), interval_text(i.restitution),
                     or_null(i.tangential_restitution), or_null(i.friction), number(i.impulse.norm())});
   add_table(scene, "Impacts",
-            {column("frame", "", 2), column("time", "s", 4), column("restitution", "", 3), column("95 % from", "", 3), column("to", "", 3),
+            {column("frame", "", 2), column("time", "s", 4), column("restitution", "", 3), column("95 %"),
              column("tangential", "", 3), column("friction", "", 3), column("impulse", "m/s", 3)},
             std::move(rows));
 }
@@ -70,20 +75,22 @@ void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
   add_table(scene, "What the clip tells", {column("remark")}, std::move(weak));
 }
 
-Json facts_of(const Reconstruction& r) {
-  Json facts = Json::array();
-  const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
-  fact("restitution", r.restitution ? estimate_text(*r.restitution) : "no confident value");
-  if (r.fixed.empty() && r.bodies.size() == 2) fact(fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), r.mass_ratio ? estimate_text(*r.mass_ratio) : "no confident value");
-  if (!r.frames.empty()) fact("the model fits", r.fits ? "yes" : "no");
-  if (!r.ambiguous.empty()) fact("ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"));
-  fact(r.fits ? "impacts" : "impacts looked for", std::to_string(r.impacts.size()));
-  if (!r.impacts.empty() && r.fits) fact("first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
-  if (r.restitution) fact("kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
-  if (r.reprojection_rms > 0) fact("reprojection", fmt::format("{:.2f} px", r.reprojection_rms));
-  if (r.held_out_rms > 0) fact("held-out frames", fmt::format("{:.2f} px", r.held_out_rms));
-  if (r.drag) fact("drag", fmt::format("{:.4g} 1/m", *r.drag));
-  return facts;
+void add_estimate(SceneBuilder& scene, std::string_view name, const std::optional<Estimate>& e, std::string_view help) {
+  if (!e) return add_fact(scene, name, "no confident value", help);
+  add_fact(scene, fmt::format("{} (95 %: {})", name, interval_text(*e)), fmt::format("{:.{}f}", e->value, digits_of(*e)), help);
+}
+
+void add_facts(SceneBuilder& scene, const Reconstruction& r) {
+  add_estimate(scene, "restitution", r.restitution, "Speed at which the bodies part, of the speed at which they meet");
+  if (r.fixed.empty() && r.bodies.size() == 2) add_estimate(scene, fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), r.mass_ratio, "");
+  if (!r.frames.empty()) add_fact(scene, "the model fits", r.fits ? "yes" : "no", "Whether free flight, one impact after the other, explains what is seen within its noise");
+  if (!r.ambiguous.empty()) add_fact(scene, "ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"), "They fit almost as well: see the table");
+  add_fact(scene, r.fits ? "impacts" : "impacts looked for", std::to_string(r.impacts.size()));
+  if (!r.impacts.empty() && r.fits) add_fact(scene, "first impact, frame", fmt::format("{:.2f}", r.impacts.front().frame));
+  if (r.restitution) add_fact(scene, "kinetic energy kept", fmt::format("{:.0f} %", 100.0 * r.energy_after / r.energy_before));
+  if (r.reprojection_rms > 0) add_fact(scene, "reprojection", fmt::format("{:.2f} px", r.reprojection_rms), "How far the solved paths are from what was tracked");
+  if (r.held_out_rms > 0) add_fact(scene, "held-out frames", fmt::format("{:.2f} px", r.held_out_rms), "The same in frames that the solution was not shown");
+  if (r.drag) add_fact(scene, "drag", fmt::format("{:.4g} 1/m", *r.drag), "Deceleration by air, of the speed squared");
 }
 
 /// What flies, not the camera that saw it from afar.
@@ -100,10 +107,9 @@ std::optional<Json> focus_of(const Reconstruction& r) {
 }  // namespace
 
 std::string estimate_text(const Estimate& e) {
-  const int digits = e.sd >= 0.001 ? 3 : 4;
   const bool even = e.low <= e.value - e.sd && e.value + e.sd <= e.high;
-  const std::string deviation = even ? fmt::format(" ± {:.{}f}", e.sd, digits) : "";
-  return fmt::format("{:.{}f}{} (95 %: {:.{}f}…{:.{}f})", e.value, digits, deviation, e.low, digits, e.high, digits);
+  const std::string deviation = even ? fmt::format(" ± {:.{}f}", e.sd, digits_of(e)) : "";
+  return fmt::format("{:.{}f}{} (95 %: {})", e.value, digits_of(e), deviation, interval_text(e));
 }
 
 std::string collision_scene(const Reconstruction& r, const InputRecord& input, const OptionTable& options, const std::string& command,
@@ -115,7 +121,10 @@ std::string collision_scene(const Reconstruction& r, const InputRecord& input, c
   if (!r.restitution) header["verdict"] = r.impacts.empty() ? "no collision was found" : "no value of the restitution can be relied on";
   header["inside"] = false;
   if (const auto focus = focus_of(r)) header["focus"] = *focus;
-  header["facts"] = facts_of(r);
+  header["about"] =
+      "Flights before and after each impact, as gravity and the laws of impact allow them for what the clip shows. 95 % intervals count on the sizes and the camera that "
+      "were given; where the clip does not tell, no value is stated.";
+  add_facts(scene, r);
   add_bodies(scene, shot, r);
   add_fixed(scene, shot, r);
   add_flights(scene, r, shot.gravity);

@@ -99,7 +99,7 @@ std::string evaluation_table(const CuboidsEvaluation& e) {
   if (s.hidden_part) text += line("overlap with the hidden part", percent(s.hidden_part->iou));
   if (s.referee)
     text += line("stand still in MuJoCo", fmt::format("{} of {}", s.referee->still, s.referee->bodies), percent(s.referee->share));
-  if (s.referee && !s.referee->moved.empty()) text += fmt::format("  do not: cuboid {}\n", fmt::join(s.referee->moved, ", "));
+  if (s.referee && !s.referee->moved.empty()) text += fmt::format("  do not: box {}\n", fmt::join(s.referee->moved, ", "));
   return text;
 }
 

@@ -57,6 +57,7 @@ std::string cuboids_json(const cuboids::Completion& c, const InputRecord& input,
   json["extended_volume"] = number(c.extended_volume);
   json["unsupported"] = c.unsupported;
   json["held_outside"] = c.held_outside;
+  json["may_move"] = c.may_move;
   json["search"] = {{"nodes", c.search.nodes}, {"pruned", c.search.pruned}, {"optimal", c.search.optimal}};
   return text_of(json);
 }

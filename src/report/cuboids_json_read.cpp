@@ -103,6 +103,7 @@ cuboids::Completion parse_cuboids_result(const std::string& text, const std::str
   };
   read_cuboid_ids(json["unsupported"], c.unsupported);
   if (json.has("held_outside")) read_cuboid_ids(json["held_outside"], c.held_outside);
+  if (json.has("may_move")) read_cuboid_ids(json["may_move"], c.may_move);
   c.search = {search["nodes"].count(), search["pruned"].count(), search["optimal"].truth()};
   return c;
 }

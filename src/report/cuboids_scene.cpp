@@ -28,6 +28,7 @@ void add_box_table(SceneBuilder& scene, const Completion& c) {
     const auto in = [&](const std::vector<int>& ids) { return std::find(ids.begin(), ids.end(), cuboid.id) != ids.end(); };
     const std::string remark = in(c.unsupported)              ? "unsupported"
                                : in(c.held_outside)           ? "held outside"
+                               : in(c.may_move)               ? "may move"
                                : cuboid.by_symmetry           ? "by symmetry"
                                : cuboid.is_completed()        ? "completed"
                                                               : "";
@@ -72,26 +73,22 @@ void add_contact_table(SceneBuilder& scene, const Completion& c) {
        {"rows", std::move(rows)}});
 }
 
-Json facts_of(const Completion& c, const OptionTable& options) {
-  Json facts = Json::array();
-  const auto fact = [&](std::string_view name, std::string value) {
-    facts.push_back({{"name", name}, {"value", std::move(value)}});
-  };
+void add_facts(SceneBuilder& scene, const Completion& c, const OptionTable& options) {
   const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(), [](const auto& cuboid) { return cuboid.is_completed(); });
-  fact("stands", c.stability.stable ? "yes" : "no");
-  fact("boxes", std::to_string(c.cuboids.size()));
-  fact("boxes completed", std::to_string(completed));
-  fact("inferred volume", fmt::format("{:.3g} l", 1000.0 * c.extended_volume));
-  fact("contacts", std::to_string(c.contacts.size()));
-  fact("of them fixed", std::to_string(c.fixed_contacts));
-  fact("bears a push of", fmt::format("{:.2f} g", c.stability.margin));
-  fact("friction needed", fmt::format("{:.2f} of {}", c.stability.friction_needed, options.text_of("friction")));
-  fact("residual", fmt::format("{:.2g}", c.stability.residual));
-  fact("fewest fixed contacts", c.search.optimal ? "proven" : "not proven");
-  if (c.depth_noise > 0.0) fact("noise of the depth", fmt::format("{:.2g} mm at 1 m", 1000.0 * c.depth_noise));
-  if (!c.unsupported.empty()) fact("unsupported", std::to_string(c.unsupported.size()));
-  if (!c.held_outside.empty()) fact("held outside the picture", std::to_string(c.held_outside.size()));
-  return facts;
+  add_fact(scene, "stands", c.stability.stable ? "yes" : "no", "Whether forces at the contacts, within friction, can hold all boxes up");
+  if (!c.may_move.empty()) add_fact(scene, "of them doubtfully", std::to_string(c.may_move.size()), "Boxes that stand within the tolerance of their contacts only, or fall at a slight push");
+  add_fact(scene, "boxes", std::to_string(c.cuboids.size()));
+  add_fact(scene, "boxes completed", std::to_string(completed), "Boxes with a part that the picture does not show");
+  add_fact(scene, "inferred volume", volume_text(c.extended_volume), "Of all parts that the picture does not show");
+  add_fact(scene, "contacts", std::to_string(c.contacts.size()));
+  add_fact(scene, "of them fixed", std::to_string(c.fixed_contacts), "Where touching alone would not hold, as with glue or screws: as few as possible");
+  add_fact(scene, "bears a push of", fmt::format("{:.2f} g", c.stability.margin), "The least sideways acceleration that tips or shifts something");
+  add_fact(scene, "friction needed", fmt::format("{:.2f} of {}", c.stability.friction_needed, options.text_of("friction")), "The least friction with which it stands, of the one that is assumed");
+  add_fact(scene, "residual", fmt::format("{:.2g}", c.stability.residual), "Of the balance of forces, as a share of the weight");
+  add_fact(scene, "fewest fixed contacts", c.search.optimal ? "proven" : "not proven", "Whether all other ways to complete the boxes were ruled out");
+  if (c.depth_noise > 0.0) add_fact(scene, "noise of the depth", fmt::format("{:.2g} mm at 1 m", 1000.0 * c.depth_noise));
+  if (!c.unsupported.empty()) add_fact(scene, "unsupported", std::to_string(c.unsupported.size()), "Boxes that nothing was found to carry");
+  if (!c.held_outside.empty()) add_fact(scene, "held outside the picture", std::to_string(c.held_outside.size()));
 }
 
 /// The boxes and what they stand on nearby, not the room behind.
@@ -114,7 +111,10 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
   if (c.cuboids.empty()) header["verdict"] = "no box was found";
   header["inside"] = false;
   if (!c.cuboids.empty()) header["focus"] = focus_of(c);
-  header["facts"] = facts_of(c, options);
+  header["about"] =
+      "Boxes as the depth shows them, and behind them, in a lighter dress, the part that the picture does not show. It is the least that lets everything stand: "
+      "a true side may be longer. Forces are those of one way to hold everything up.";
+  add_facts(scene, c, options);
   const DepthPoints points = depth_points(frame, c.T_world_camera, kPointsShown);
   if (points.positions.size() < points.seen)
     header["thinned"] = {{"shown", points.positions.size()}, {"of", points.seen}};
@@ -127,6 +127,11 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
   add_contact_table(scene, c);
   add_support_table(scene, c);
   return scene.encode();
+}
+
+std::string volume_text(double volume) {
+  const double litres = 1000.0 * volume;
+  return litres < 100.0 ? fmt::format("{:.3g} l", litres) : fmt::format("{:.0f} l", litres);
 }
 
 std::string cuboids_title(const InputRecord& input) {

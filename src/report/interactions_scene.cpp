@@ -85,9 +85,7 @@ void add_window_table(SceneBuilder& scene, const Reconstruction& r) {
       std::move(rows));
 }
 
-Json facts_of(const Reconstruction& r) {
-  Json facts = Json::array();
-  const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
+void add_facts(SceneBuilder& scene, const Reconstruction& r) {
   std::size_t frames = 0;
   double scenelets = 0, hidden = 0;
   for (const Person& p : r.people) {
@@ -95,20 +93,18 @@ Json facts_of(const Reconstruction& r) {
     scenelets += share_from_scenelets(p.frames) * static_cast<double>(p.frames.size());
     for (const PersonFrame& f : p.frames) hidden += static_cast<double>((f.confidence < 0.5).count()) / kJoints;
   }
-  fact("objects", std::to_string(r.objects.size()));
-  if (!r.objects.empty()) fact("their places", "off by some 20 to 60 cm");  // docs/interactions.md, limits
-  fact("people", std::to_string(r.people.size()));
-  fact("windows with an interaction", std::to_string(r.windows.size()));
+  add_fact(scene, "objects", std::to_string(r.objects.size()));
+  add_fact(scene, "people", std::to_string(r.people.size()));
+  add_fact(scene, "windows with an interaction", std::to_string(r.windows.size()), "Stretches of time in which somebody sits, lies, or uses something");
   if (frames > 0) {
     const double all = static_cast<double>(frames);
-    fact("poses", std::to_string(frames));
-    fact("poses from scenelets", fmt::format("{:.0f} %", 100.0 * scenelets / all));
-    fact("joints hardly seen", fmt::format("{:.0f} %", 100.0 * hidden / all));
+    add_fact(scene, "poses", std::to_string(frames));
+    add_fact(scene, "poses from scenelets", fmt::format("{:.0f} %", 100.0 * scenelets / all), "Poses that were not seen well and come from recorded people who do alike");
+    add_fact(scene, "joints hardly seen", fmt::format("{:.0f} %", 100.0 * hidden / all));
   }
-  fact("camera height", fmt::format("{:.2f} m", r.ground.camera_height));
-  fact("camera pitch", fmt::format("{:.1f}°", degrees(r.ground.pitch)));
-  if (!r.ground.source.empty()) fact("ground from", r.ground.source);
-  return facts;
+  add_fact(scene, "camera height", fmt::format("{:.2f} m", r.ground.camera_height));
+  add_fact(scene, "camera pitch", fmt::format("{:.1f}°", degrees(r.ground.pitch)));
+  if (!r.ground.source.empty()) add_fact(scene, "ground from", r.ground.source);
 }
 
 /// The room, not the camera before it.
@@ -128,7 +124,10 @@ std::string interactions_scene(const Reconstruction& r, const InputRecord& input
   if (r.objects.empty()) header["verdict"] = "no furniture was found: nobody was seen to use any";
   header["inside"] = false;
   if (const Eigen::AlignedBox3d reach = reach_of(r); !reach.isEmpty()) header["focus"] = focus_of(reach);
-  header["facts"] = facts_of(r);
+  header["about"] =
+      "Furniture as people use it: where somebody sits or leans, there is something to sit or lean on. Places are off by some 20 to 60 cm, kinds are a guess by what is "
+      "done there, and confidence says whether there is something at all.";
+  add_facts(scene, r);
   add_floor(scene, r);
   if (!evidence_png.empty()) add_evidence(scene, r.evidence, evidence_png, kEvidencePixels);
   add_objects(scene, r);

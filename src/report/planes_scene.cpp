@@ -61,15 +61,24 @@ std::string grouped(std::size_t number) {
   return text;
 }
 
-Json facts_of(const Arrangement& a) {
+void add_facts(SceneBuilder& scene, const Arrangement& a) {
   const std::size_t points = count_of(a.summary, "points"), assigned = count_of(a.summary, "assigned");
-  const auto fact = [](std::string_view name, std::string value) { return Json{{"name", name}, {"value", std::move(value)}}; };
   const std::string things = a.two_dimensional ? "lines" : "planes";
-  return {fact(things, std::to_string(a.planes.size())), fact("orientation frames", std::to_string(a.frames.size())),
-          fact("directions", std::to_string(a.directions.size())), fact("relations", std::to_string(a.relations.size())),
-          fact("related pairs of " + things, grouped(a.plane_relations)), fact("points", grouped(points)),
-          fact("points explained", points > 0 ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(assigned) / static_cast<double>(points)) : "–"),
-          fact("scale", fmt::format("{:.4g}{}", a.scale, a.two_dimensional ? "" : " m"))};
+  add_fact(scene, things, std::to_string(a.planes.size()));
+  add_fact(scene, "orientation frames", std::to_string(a.frames.size()), "Sets of directions at exact angles to each other. What stands askew has a frame of its own");
+  add_fact(scene, "directions", std::to_string(a.directions.size()), fmt::format("Exactly parallel {} share one", things));
+  add_fact(scene, "relations", std::to_string(a.relations.size()), "Exact angles between directions, equal spacings and lengths. Each holds to 0.01°");
+  add_fact(scene, "related pairs of " + things, grouped(a.plane_relations), fmt::format("Pairs of {} that these relations hold between", things));
+  add_fact(scene, "points", grouped(points));
+  add_fact(scene, "points explained", points > 0 ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(assigned) / static_cast<double>(points)) : "–",
+           fmt::format("Share of the points that lie on one of the {}", things));
+  add_fact(scene, "scale", fmt::format("{:.4g}{}", a.scale, a.two_dimensional ? "" : " m"), "What is smaller than this is not told apart from noise");
+}
+
+std::string about(const Arrangement& a) {
+  const std::string_view things = a.two_dimensional ? "lines" : "planes";
+  return fmt::format("The {} that the points lie on. Angles, spacings and lengths that agree within the noise of the points are made equal, exactly; what differs by more is "
+                     "left as it is. What is curved or smaller than a few times the scale has no {}.", things, things.substr(0, things.size() - 1));
 }
 
 /// The box that all but half a percent of the points on planes lie in, along each axis and at each end.
@@ -116,7 +125,8 @@ std::string planes_scene(const Arrangement& a, const InputRecord& input, const O
   header["flat"] = planes::flat_axis(a) == 2;  // the page looks at it from above
   if (const auto focus = focus_of(points, offset)) header["focus"] = *focus;
   if (const auto inside = is_inside(a)) header["inside"] = *inside;
-  header["facts"] = facts_of(a);
+  header["about"] = about(a);
+  add_facts(scene, a);
   if (sample.step > 1) header["thinned"] = {{"shown", sample.positions.size()}, {"of", sample.seen}};
   add_surfaces(scene, a, surfaces, points);
   if (!points.positions.empty()) add_points(scene, a, points);

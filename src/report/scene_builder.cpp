@@ -198,6 +198,12 @@ Json quantity(std::string_view id, std::string_view name, std::string_view kind,
   return {{"id", id}, {"name", name}, {"kind", kind}, {"unit", unit}, {"array", std::move(array)}};
 }
 
+void add_fact(SceneBuilder& scene, std::string_view name, std::string value, std::string_view help) {
+  Json fact = {{"name", name}, {"value", std::move(value)}};
+  if (!help.empty()) fact["help"] = help;
+  scene.header["facts"].push_back(std::move(fact));
+}
+
 Json column(std::string_view name, std::string_view unit, int digits) {
   Json json = {{"name", name}, {"unit", unit}};
   if (digits >= 0) json["digits"] = digits;

@@ -60,6 +60,8 @@ class SceneBuilder {
 /// A quantity (docs/scene.md) of kind "label" or "scalar", to be given more fields if need be.
 Json quantity(std::string_view id, std::string_view name, std::string_view kind, Json array, std::string_view unit = "");
 
+/// Adds a fact to the header; `help` says what it means.
+void add_fact(SceneBuilder& scene, std::string_view name, std::string value, std::string_view help = "");
 /// A column of a table; `digits` behind the point, −1 = as many as it takes.
 Json column(std::string_view name, std::string_view unit = "", int digits = -1);
 /// Adds a table to the header, unless it has no rows. With a structure, row i is about its element i.

@@ -80,19 +80,16 @@ void add_tables(SceneBuilder& scene, const StagedShot& shot) {
   add_table(scene, "Collisions", {column("collision"), column("at", "s", 3), column("moved", "m"), column("turned", "°", 1), column("result")}, std::move(collisions));
 }
 
-Json facts_of(const StagedShot& shot) {
+void add_facts(SceneBuilder& scene, const StagedShot& shot) {
   double off = 0;
   for (const StagedImpact& i : shot.impacts) off = std::max(off, std::abs(i.restitution - i.expected));
-  Json facts = Json::array();
-  const auto fact = [&](std::string_view name, std::string value) { facts.push_back({{"name", name}, {"value", std::move(value)}}); };
-  fact("collisions", std::to_string(shot.placements.size()));
-  fact("bodies", std::to_string(shot.actors.size()));
-  fact("impacts", std::to_string(shot.impacts.size()));
-  fact("happened as asked", shot.summary.status == Status::infeasible ? "no" : "yes");
-  if (!shot.impacts.empty()) fact("restitution off by at most", fmt::format("{:.3f}", off));
-  fact("duration", fmt::format("{:.2f} s", shot.frames.back().time));
-  fact("frames a second", fmt::format("{:g}", shot.fps));
-  return facts;
+  add_fact(scene, "collisions", std::to_string(shot.placements.size()));
+  add_fact(scene, "bodies", std::to_string(shot.actors.size()));
+  add_fact(scene, "impacts", std::to_string(shot.impacts.size()));
+  add_fact(scene, "happened as asked", shot.summary.status == Status::infeasible ? "no" : "yes");
+  if (!shot.impacts.empty()) add_fact(scene, "restitution off by at most", fmt::format("{:.3f}", off));
+  add_fact(scene, "duration", fmt::format("{:.2f} s", shot.frames.back().time));
+  add_fact(scene, "frames a second", fmt::format("{:g}", shot.fps));
 }
 
 Json focus_of(const StagedShot& shot) {
@@ -111,7 +108,8 @@ std::string stage_scene(const StagedShot& shot, const InputRecord& input, const 
   write_run(scene, "stage", command, shot.summary, {}, input);
   scene.header["inside"] = false;
   scene.header["focus"] = focus_of(shot);
-  scene.header["facts"] = facts_of(shot);
+  scene.header["about"] = "Collisions of several results in one shot, run by a physics engine from the states that were solved for, so that they happen at the times asked for.";
+  add_facts(scene, shot);
   add_actors(scene, shot);
   for (std::size_t w = 0; w < shot.walls.size(); ++w) add_quad(scene, fmt::format("wall-{}", w), shot.walls[w].name, wall_quad(shot, w));
   add_paths(scene, shot);

@@ -38,7 +38,7 @@ TEST(CuboidsResult, RoundTripGivesTheSameText) {
 
 TEST(CuboidsResult, FieldsBeyondTheContractMayBeMissing) {
   auto json = nlohmann::json::parse(json_of(cuboids::sample_completion()));
-  EXPECT_EQ(json.erase("held_outside") + json.erase("depth_noise"), 2u);
+  EXPECT_EQ(json.erase("held_outside") + json.erase("may_move") + json.erase("depth_noise"), 3u);
   EXPECT_EQ(parse_cuboids_result(json.dump(), "memory").cuboids.size(), json["cuboids"].size());
 }
 
@@ -117,7 +117,7 @@ TEST(CuboidsResult, RefusesHostileText) {
   const auto whole = nlohmann::json::parse(good);
   for (const auto& [key, value] : whole.items()) {
     if (key == "unseen" || key == "input" || key == "options") continue;
-    if (key == "held_outside" || key == "depth_noise") continue;  // beyond the contract: files of others have none
+    if (key == "held_outside" || key == "may_move" || key == "depth_noise") continue;  // beyond the contract: files of others have none
     auto json = whole;
     json.erase(key);
     EXPECT_THROW(parse_cuboids_result(json.dump(), "a.json"), InputError) << key;

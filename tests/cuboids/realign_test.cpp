@@ -140,7 +140,7 @@ TEST(Complete, WarnsOfWhatStaysUprightByChance) {
     Context context;
     const Completion c = complete_cuboids(render(scene), given(scene, 0.0, 0.0, 1), {}, context);
     const auto warned = std::count_if(c.summary.warnings.begin(), c.summary.warnings.end(),
-                                      [](const std::string& w) { return w.find("may not stay") != std::string::npos && w.ends_with("cuboid 1"); });
+                                      [](const std::string& w) { return w.find("may not stay") != std::string::npos && w.ends_with("box 1"); });
     const auto fixed = std::count_if(c.contacts.begin(), c.contacts.end(), [](const Contact& contact) { return contact.kind == ContactKind::fixed; });
     EXPECT_EQ(fixed, width < 0.01) << width;
     EXPECT_EQ(warned, width > 0.01 && width < 0.05) << width;

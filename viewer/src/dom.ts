@@ -42,6 +42,11 @@ const kIcons: Record<string, string> = {
   camera: 'M4 8h3l2-3h6l2 3h3v11H4zM12 16.500a3.500 3.500 0 1 0 0-7 3.500 3.500 0 0 0 0 7Z',
 };
 
+/** Whether cards may lie open on the picture: not on a phone, upright or not. */
+export function isRoomy(): MediaQueryList {
+  return matchMedia('(min-width: 800px) and (min-height: 500px)');
+}
+
 export function icon(name: string): SVGElement {
   return s('svg', { viewBox: '0 0 24 24', class: 'icon', 'aria-hidden': 'true' }, s('path', { d: kIcons[name] ?? '' }));
 }

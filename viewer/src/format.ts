@@ -151,7 +151,9 @@ export interface Header {
   flat?: boolean;
   focus?: { low: number[]; high: number[] };
   inside?: boolean;
-  facts?: { name: string; value: string }[];
+  /** What the page shows and how far to trust it. */
+  about?: string;
+  facts?: { name: string; value: string; help?: string }[];
   /** What a status other than 'solved' means here. */
   verdict?: string;
   summary?: Summary;

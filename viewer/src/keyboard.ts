@@ -26,7 +26,7 @@ export function addKeyboard(app: App, help: HTMLDialogElement) {
     '-': () => app.rig.zoom(1 / 0.85),
     Escape: () => {
       const popover = document.querySelector<HTMLElement>('.popover:not([hidden])');
-      if (popover) click('#tool-section');
+      if (popover) popover.dispatchEvent(new Event('close'));
       else app.select(null);
     },
   };

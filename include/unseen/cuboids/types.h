@@ -79,6 +79,7 @@ struct Completion {
   double extended_volume = 0;    ///< m³
   std::vector<int> unsupported;  ///< ids of cuboids that nothing can support
   std::vector<int> held_outside;  ///< ids of cuboids that the picture cuts off, and that only something outside it can hold
+  std::vector<int> may_move;  ///< ids of cuboids that stand within the tolerance of their contacts only, or fall at a slight push
   SearchReport search;
   Summary summary;
 

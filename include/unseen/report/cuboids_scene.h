@@ -21,4 +21,7 @@ std::string cuboids_scene(const cuboids::Completion& completion, const InputReco
 /// "Boxes of kitchen"
 std::string cuboids_title(const InputRecord& input);
 
+/// "1.26 l" of a volume in m³.
+std::string volume_text(double volume);
+
 }  // namespace unseen::report

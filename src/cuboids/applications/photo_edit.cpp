@@ -40,7 +40,7 @@ void warn_of_floating(const Completion& scene, const std::vector<EditedBody>& bo
       return index.contains(below) && std::find(body.cuboids.begin(), body.cuboids.end(), index[below]) != body.cuboids.end();
     });
     if (moves && index.contains(above) && !photo.edited[index[above]])
-      context.warn(fmt::format("cuboid {} stood on {}, which is no longer there", above, below));
+      context.warn(fmt::format("box {} stood on {}, which is no longer there", above, below));
   }
 }
 

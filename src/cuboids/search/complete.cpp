@@ -84,16 +84,19 @@ void warn_of_free_space(const DepthView& view, const std::vector<double>& tolera
   std::sort(free.begin(), free.end());
   std::vector<std::string> named;
   for (const auto& [share, id] : free) named.push_back(fmt::format("{} ({:.0f} %)", id, -100.0 * share));
-  context.warn("what was seen is no box, and its box holds space that was seen free: cuboid " + first_of(named));
+  context.warn("what was seen is no box, and its box holds space that was seen free: box " + first_of(named));
 }
 
 /// Contacts count within tolerance, but an engine that is given the boxes moves some until they touch.
-void warn_of_falls(const std::vector<char>& falls, double push, const Completion& result, Context& context) {
+void warn_of_falls(const std::vector<char>& falls, double push, Completion& result, Context& context) {
   std::vector<std::string> named;
-  for (std::size_t i = 0; i < result.cuboids.size(); ++i)
-    if (falls[result.supports.size() + i]) named.push_back(std::to_string(result.cuboids[i].id));
+  for (std::size_t i = 0; i < result.cuboids.size(); ++i) {
+    if (!falls[result.supports.size() + i]) continue;
+    result.may_move.push_back(result.cuboids[i].id);
+    named.push_back(std::to_string(result.cuboids[i].id));
+  }
   if (named.empty()) return;
-  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a push of {} g: cuboid {}",
+  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a push of {} g: box {}",
                            push, first_of(named)));
 }
 

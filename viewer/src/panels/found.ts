@@ -21,7 +21,8 @@ export function foundPanel(app: App, view: SceneView): HTMLElement {
   const notes = [...(summary?.status && summary.status !== 'solved' ? [header.verdict ?? `Status: ${summary.status.replace(/_/g, ' ')}`] : []), ...(summary?.warnings ?? [])];
   return h('div', { class: 'panel-body' },
     selected,
-    header.facts?.length ? h('dl', { class: 'facts' }, ...header.facts.map((f) => h('div', {}, h('dt', {}, f.name), h('dd', {}, f.value)))) : null,
+    header.about ? h('p', { class: 'quiet' }, header.about) : null,
+    header.facts?.length ? h('dl', { class: 'facts' }, ...header.facts.map((f) => h('div', f.help ? { title: f.help } : {}, h('dt', { class: f.help ? 'helped' : '' }, f.name), h('dd', {}, f.value)))) : null,
     ...notes.map((n) => h('p', { class: 'note warning' }, n)),
     thinned ? h('p', { class: 'note' }, `The page shows ${grouped(thinned.shown)} of ${grouped(thinned.of)} points; the result is of all.`) : null,
     ...(header.charts ?? []).map((c) => chartPanel(app, view, c)),

@@ -25,7 +25,17 @@ export function nodeColors(model: Model, structure: { id: string; elements?: { s
   };
 }
 
+/** The first of some places along an edge where a text lies on no other, or the middle. A box is x, y (its middle), width, height. */
+export function placeAlong(from: [number, number], to: [number, number], width: number, height: number, taken: [number, number, number, number][]): [number, number] {
+  const at = (t: number): [number, number] => [from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])];
+  const free = ([x, y]: [number, number]) => taken.every(([u, v, w, h]) => 2 * Math.abs(x - u) >= width + w || 2 * Math.abs(y - v) >= height + h);
+  const place = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8].map(at).find(free) ?? at(0.5);
+  taken.push([...place, width, height]);
+  return place;
+}
+
 const kWidth = 340;
+const kLetter = 5.6, kLine = 12;  // of a label
 const kMostLabels = 40;
 
 export function graphPanel(app: App, view: SceneView, graph: GraphStructure): HTMLElement {
@@ -42,6 +52,7 @@ export function graphPanel(app: App, view: SceneView, graph: GraphStructure): HT
   const base = n > 150 ? 3 : n > 50 ? 4.5 : 7;
   const most = Math.max(...sizes, 1);
   const scene = app.scenes.indexOf(view);
+  const labelOf = (i: number) => (n <= kMostLabels ? graph.node_names[i]!.replace(/^direction /, '') : '');
 
   const lines: SVGLineElement[] = [];
   for (let e = 0; e < graph.edges.count; ++e) {
@@ -54,7 +65,7 @@ export function graphPanel(app: App, view: SceneView, graph: GraphStructure): HT
     return s('g', { class: 'node', transform: `translate(${x(i).toFixed(1)} ${y(i).toFixed(1)})`, 'data-node': i },
       s('title', {}, `${name}${graph.elements ? `, ${sizes[i]} element${sizes[i] === 1 ? '' : 's'}` : ''}`),
       s('circle', { r: r.toFixed(1), fill: css(color(i)) }),
-      n <= kMostLabels ? s('text', { y: (-r - 3).toFixed(1), 'text-anchor': 'middle' }, name.replace(/^direction /, '')) : null);
+      s('text', { y: (-r - 3).toFixed(1), 'text-anchor': 'middle' }, labelOf(i)));
   });
   const drawing = s('svg', { viewBox: `0 0 ${kWidth} ${height}`, class: `graph${n > 80 ? ' dense' : ''}`, tabindex: '0', role: 'img',
     'aria-label': `${graph.name}: ${n} nodes, ${graph.edges.count} edges. Arrow keys step through the nodes.` },
@@ -69,14 +80,18 @@ export function graphPanel(app: App, view: SceneView, graph: GraphStructure): HT
       node.classList.toggle('away', chosen.size > 0 && !chosen.has(i) && !around.has(i));
     });
     edgeLabels.replaceChildren();
+    const taken = nodes.flatMap((_, i): [number, number, number, number][] => [[x(i), y(i), 2 * base, 2 * base], [x(i), y(i) - base - kLine / 2, kLetter * labelOf(i).length, kLine]]);
     lines.forEach((line, e) => {
       const a = edges[2 * e]!, b = edges[2 * e + 1]!;
       const on = chosen.has(a) || chosen.has(b);
       line.classList.toggle('on', on);
       line.classList.toggle('away', chosen.size > 0 && !on);
       line.style.stroke = on ? css(relationColor(model, graph.edge_names[e])) : '';
-      if (on && edgeLabels.childElementCount < 30)
-        edgeLabels.append(s('text', { x: ((x(a) + x(b)) / 2).toFixed(1), y: ((y(a) + y(b)) / 2 + 3).toFixed(1), 'text-anchor': 'middle' }, graph.edge_names[e] ?? ''));
+      if (on && edgeLabels.childElementCount < 30) {
+        const name = graph.edge_names[e] ?? '';
+        const [u, v] = placeAlong([x(a), y(a)], [x(b), y(b)], kLetter * name.length, kLine, taken);
+        edgeLabels.append(s('text', { x: u.toFixed(1), y: (v + 3).toFixed(1), 'text-anchor': 'middle' }, name));
+      }
     });
   }
   const choose = (i: number) => app.select({ structure: graph.id, index: i }, scene);

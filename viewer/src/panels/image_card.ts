@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 // Images and videos that the result was made from, and the cameras that took them.
 import type { App, SceneView } from '../app';
-import { h } from '../dom';
+import { h, isRoomy } from '../dom';
 import type { CameraStructure, ImageStructure } from '../format';
 import type { ImageLayer } from '../layers/camera';
 
@@ -18,6 +18,6 @@ export function imageCard(app: App, view: SceneView): HTMLElement | null {
     return h('figure', {}, element, h('figcaption', { class: 'quiet' }, image.name));
   });
   const buttons = cameras.map((c) => h('button', { type: 'button', class: 'button', onclick: () => app.lookThrough(c) }, cameras.length > 1 ? `Look through ${c.name}` : 'Look through the camera'));
-  return h('details', { class: 'card images', open: matchMedia('(min-width: 800px)').matches }, h('summary', {}, images.length > 0 ? 'Image' : 'Camera'),
+  return h('details', { class: 'card images', open: isRoomy().matches }, h('summary', {}, images.length > 0 ? 'Image' : 'Camera'),
     h('div', { class: 'card-body' }, ...pictures, ...buttons));
 }

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 // What the colours mean.
 import type { App, SceneView } from '../app';
-import { h, number } from '../dom';
+import { h, isRoomy, number } from '../dom';
 import { kRelation, rangeOf } from '../layers/coloring';
 import type { Layer } from '../layers/layer';
 import { css, kNone, labelColor, relationColor, scalarColor } from '../palette';
@@ -46,10 +46,10 @@ function legendOf(view: SceneView, layer: Layer): { key: string; element: HTMLEl
 }
 
 export function legend(app: App, view: SceneView): HTMLElement {
-  // Where there is room its heading is not needed; on a phone it is folded.
-  const wide = matchMedia('(min-width: 800px)');
+  // Where there is room its heading is not needed; on a phone, upright or not, it is folded.
+  const roomy = isRoomy();
   const body = h('div', { class: 'legend-body' });
-  const card = h('details', { class: 'card legend', 'aria-label': 'Legend', open: wide.matches }, h('summary', {}, 'Legend'), body);
+  const card = h('details', { class: 'card legend', 'aria-label': 'Legend', open: roomy.matches }, h('summary', {}, 'Legend'), body);
   const draw = () => {
     const parts = new Map<string, HTMLElement>();
     for (const layer of view.viewport!.layers.values()) {
@@ -60,7 +60,8 @@ export function legend(app: App, view: SceneView): HTMLElement {
     card.hidden = parts.size === 0;
     body.replaceChildren(...[...parts.values()].slice(0, 3));
   };
-  wide.addEventListener('change', () => (card.open = wide.matches));
+  roomy.addEventListener('change', () => (card.open = roomy.matches));
+  app.on('print', () => (card.open = app.printing || roomy.matches));
   app.on('layers', draw);
   draw();
   return card;

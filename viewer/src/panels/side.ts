@@ -48,7 +48,24 @@ export function sidePanel(app: App): HTMLElement {
     show(next);
     tabs[kTabs.indexOf(next)]!.focus();
   });
+  // The edge towards the picture can be moved.
+  const width = (px: number) => document.documentElement.style.setProperty('--side', `${Math.round(Math.min(Math.max(300, px), 0.7 * innerWidth))}px`);
+  const edge = h('div', { class: 'side-edge', role: 'separator', 'aria-orientation': 'vertical', 'aria-label': 'Width of the panel', tabindex: '0', title: 'Drag to widen' });
+  edge.addEventListener('pointerdown', (e) => {
+    e.preventDefault();
+    edge.setPointerCapture(e.pointerId);
+  });
+  edge.addEventListener('pointermove', (e) => {
+    if (edge.hasPointerCapture(e.pointerId)) width(innerWidth - e.clientX);
+  });
+  edge.addEventListener('keydown', (e) => {
+    const step = { ArrowLeft: 40, ArrowRight: -40 }[e.key];
+    if (!step) return;
+    e.preventDefault();
+    e.stopPropagation();
+    width(innerWidth - edge.getBoundingClientRect().left + step);
+  });
   app.on('active', draw);
   queueMicrotask(draw);
-  return h('aside', { class: 'side', 'aria-label': 'Result' }, scenes, list, body);
+  return h('aside', { class: 'side', 'aria-label': 'Result' }, edge, scenes, list, body);
 }

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 // One scene of the page: its picture with the cards that lie on it.
 import type { App, SceneView } from '../app';
-import { h } from '../dom';
+import { h, isRoomy } from '../dom';
 import { imageCard } from './image_card';
 import { labelsOver } from './labels';
 import { layersCard } from './layers_card';
@@ -17,9 +17,8 @@ export function stage(app: App, view: SceneView, index: number): HTMLElement {
   canvas.setAttribute('role', 'img');
   canvas.setAttribute('aria-label', `${view.model!.header.title}: ${structures}. The table lists what was found. Press ? for shortcuts.`);
   canvas.addEventListener('focus', () => app.activate(index));
-  const wide = matchMedia('(min-width: 800px)').matches;
   const box = h('div', { class: 'stage' }, canvas, label, ...labelsOver(view),
-    h('div', { class: 'cards left' }, layersCard(app, view, wide && app.scenes.length < 2), legend(app, view)), imageCard(app, view));
+    h('div', { class: 'cards left' }, layersCard(app, view, isRoomy().matches && app.scenes.length < 2), legend(app, view)), imageCard(app, view));
   const mark = () => box.classList.toggle('active', app.scenes.length > 1 && app.active === index);
   app.on('active', mark);
   mark();

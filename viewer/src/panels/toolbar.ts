@@ -37,10 +37,15 @@ export function toolbar(app: App, title: string, help: () => void): HTMLElement 
   const flat = app.rig.flat;
   const popover = sectionPopover(app);
   const has3d = app.viewports.length > 0;
+  const open = (on: boolean) => {
+    popover.hidden = !on;
+    section.setAttribute('aria-expanded', String(on));
+  };
+  // The cut ends with the box, unless Escape puts that away.
   const section = iconButton('section', 'Section plane (S)', () => {
-    popover.hidden = !popover.hidden;
-    section.setAttribute('aria-expanded', String(!popover.hidden));
-    if (!popover.hidden && !app.section.axis) app.setSection('z');
+    open(popover.hidden);
+    if (popover.hidden) app.setSection(null);
+    else if (!app.section.axis) app.setSection('z');
   }, { 'aria-expanded': 'false', 'aria-controls': 'section-popover', id: 'tool-section' });
   const ortho = h('button', { type: 'button', class: 'tool text', title: 'Perspective or parallel projection (O)', onclick: () => app.setOrtho(!app.rig.ortho) });
   const walls = iconButton('walls', 'Fade walls between camera and inside (W)', () => app.setFading(!app.fading), { id: 'tool-walls' });
@@ -53,6 +58,7 @@ export function toolbar(app: App, title: string, help: () => void): HTMLElement 
     theme.setAttribute('aria-pressed', String(app.dark));
   };
   app.on(['view', 'section', 'theme'], show);
+  popover.addEventListener('close', () => open(false));
   show();
   const gap = () => h('span', { class: 'gap', 'aria-hidden': 'true' });
   return h('header', { class: 'bar' },
