@@ -18,6 +18,12 @@ Json or_null(const std::optional<double>& value) { return value ? number(*value)
 
 int digits_of(const Estimate& e) { return e.sd >= 0.001 ? 3 : 4; }
 
+/// "0.760 ± 0.004", with one standard deviation where that does not end beyond the interval.
+std::string value_text(const Estimate& e) {
+  const bool even = e.low <= e.value - e.sd && e.value + e.sd <= e.high;
+  return even ? fmt::format("{:.{}f} ± {:.{}f}", e.value, digits_of(e), e.sd, digits_of(e)) : fmt::format("{:.{}f}", e.value, digits_of(e));
+}
+
 /// "0.752…0.767"
 std::string interval_text(const Estimate& e) { return fmt::format("{:.{}f}…{:.{}f}", e.low, digits_of(e), e.high, digits_of(e)); }
 
@@ -76,12 +82,12 @@ void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
 }
 
 void add_estimate(SceneBuilder& scene, std::string_view name, const std::optional<Estimate>& e, std::string_view help) {
-  if (!e) return add_fact(scene, name, "no confident value", help);
-  add_fact(scene, fmt::format("{} (95 %: {})", name, interval_text(*e)), fmt::format("{:.{}f}", e->value, digits_of(*e)), help);
+  add_fact(scene, name, e ? value_text(*e) : "no confident value", help);
+  if (e) add_fact(scene, "its 95 % interval", interval_text(*e));
 }
 
 void add_facts(SceneBuilder& scene, const Reconstruction& r) {
-  add_estimate(scene, "restitution", r.restitution, "Speed at which the bodies part, of the speed at which they meet");
+  add_estimate(scene, "restitution", r.restitution, "Speed at which the bodies part, of the speed at which they meet. ± is one standard deviation");
   if (r.fixed.empty() && r.bodies.size() == 2) add_estimate(scene, fmt::format("mass, {} : {}", name_of(r, 1), name_of(r, 0)), r.mass_ratio, "");
   if (!r.frames.empty()) add_fact(scene, "the model fits", r.fits ? "yes" : "no", "Whether free flight, one impact after the other, explains what is seen within its noise");
   if (!r.ambiguous.empty()) add_fact(scene, "ambiguous", fmt::format("{} other solution{}", r.ambiguous.size(), r.ambiguous.size() == 1 ? "" : "s"), "They fit almost as well: see the table");
@@ -107,9 +113,7 @@ std::optional<Json> focus_of(const Reconstruction& r) {
 }  // namespace
 
 std::string estimate_text(const Estimate& e) {
-  const bool even = e.low <= e.value - e.sd && e.value + e.sd <= e.high;
-  const std::string deviation = even ? fmt::format(" ± {:.{}f}", e.sd, digits_of(e)) : "";
-  return fmt::format("{:.{}f}{} (95 %: {})", e.value, digits_of(e), deviation, interval_text(e));
+  return fmt::format("{} (95 %: {})", value_text(e), interval_text(e));
 }
 
 std::string collision_scene(const Reconstruction& r, const InputRecord& input, const OptionTable& options, const std::string& command,
