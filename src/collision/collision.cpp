@@ -13,6 +13,7 @@
 #include "collision/doubts/common_error.h"
 #include "collision/remarks.h"
 #include "collision/shot_problem.h"
+#include "collision/sighted.h"
 #include "collision/solve/drag.h"
 #include "collision/solve/terms.h"
 #include "collision/solve_impacts.h"
@@ -161,6 +162,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   if (impacts.empty()) {
     summary.status = Status::infeasible;
     context.warn(nothing_found(shot, tracks));
+    result.sighted = sighted_in(evidence.footage, tracks);
     warn_of_far_sightings(shot, evidence.fps, context);
     return;
   }

@@ -17,10 +17,11 @@ namespace {
 
 constexpr int kMostPictures = 150, kPictureWidth = 640, kQuality = 75;
 
-/// First and last frame that is shown: those with a flight, and half a second around.
+/// First and last frame that is shown: those with a flight or, without one, in which something moves, and half a second around.
 std::array<int, 2> shown_frames(const Shot& shot, const Reconstruction& r) {
   const int around = static_cast<int>(std::lround(0.5 * r.fps));
-  std::array<int, 2> range = {std::max(0, r.frames.front().frame - around), r.frames.back().frame + around};
+  const auto around_all = [&](const auto& seen) { return std::array{std::max(0, seen.front().frame - around), seen.back().frame + around}; };
+  std::array<int, 2> range = r.frames.empty() ? around_all(r.sighted) : around_all(r.frames);
   if (shot.frames) range = {std::max(range[0], (*shot.frames)[0]), std::min(range[1], (*shot.frames)[1])};
   return range;
 }
@@ -40,6 +41,7 @@ PictureChoice choose_pictures(const Reconstruction& r, const std::array<int, 2>&
 
 /// s: by the time stamps of the frames in flight, which may be uneven; of others by the frame rate from the nearest of these.
 double time_of(const Reconstruction& r, int frame) {
+  if (r.frames.empty()) return frame / r.fps;
   auto at = std::lower_bound(r.frames.begin(), r.frames.end(), frame, [](const FramePose& f, int value) { return f.frame < value; });
   if (at == r.frames.end() || (at != r.frames.begin() && frame - (at - 1)->frame < at->frame - frame)) --at;
   return at->time + (frame - at->frame) / r.fps;
@@ -58,7 +60,7 @@ OverlayPicture picture_of(const cv::Mat& frame, double time) {
 
 std::vector<OverlayPicture> write_overlay(const Shot& shot, const Reconstruction& r, const std::filesystem::path& video, Context& context) {
   constexpr double kFast = 60.0, kSlow = 30.0;  // frames/s
-  if (shot.video.empty() || r.frames.empty() || !(r.fps > 0)) return {};
+  if (shot.video.empty() || (r.frames.empty() && r.sighted.empty()) || !(r.fps > 0)) return {};
   io::Clip clip(shot.video);
   const OverlayPen pen(shot, r);
   const std::array<int, 2> range = shown_frames(shot, r);

@@ -65,7 +65,16 @@ void OverlayPen::trail(std::size_t body, int frame, cv::Mat& picture) const {
   if (points.size() > 1) stroke(picture, points, false, color_of(body), width_for(picture));
 }
 
+void OverlayPen::circle(const Sighted& seen, cv::Mat& picture) const {
+  const cv::Scalar color = seen.body ? color_of(static_cast<std::size_t>(*seen.body)) : cv::Scalar::all(110);
+  const int radius = cvRound(std::max(0.5 * seen.diameter, 3.0) * (1 << kShift)), width = width_for(picture);
+  for (const bool rim : {true, false})
+    cv::circle(picture, fine({seen.center.x(), seen.center.y()}), radius, rim ? cv::Scalar::all(255) : color, rim ? width + 2 : width, cv::LINE_AA, kShift);
+}
+
 void OverlayPen::draw(int frame, cv::Mat& picture) const {
+  for (const Sighted& seen : r_.sighted)
+    if (seen.frame == frame) circle(seen, picture);
   const FramePose* pose = nullptr;
   for (const FramePose& f : r_.frames)
     if (f.frame == frame) pose = &f;

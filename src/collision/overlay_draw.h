@@ -11,7 +11,7 @@
 
 namespace unseen::collision {
 
-/// Draws what a solution says of a frame into its picture.
+/// Draws what a solution says of a frame into its picture or, without one, what was seen to move.
 class OverlayPen {
  public:
   OverlayPen(const Shot& shot, const Reconstruction& r);
@@ -19,6 +19,7 @@ class OverlayPen {
 
  private:
   std::optional<cv::Point2d> pixel(const Vec3& world) const;
+  void circle(const Sighted& seen, cv::Mat& picture) const;
   void outline(std::size_t body, const BodyState& state, cv::Mat& picture) const;
   void trail(std::size_t body, int frame, cv::Mat& picture) const;
 

@@ -30,6 +30,10 @@ Json residual_of(const Residual& r) {
   return {{"frame", r.frame}, {"body", kBodyKeys[r.body]}, {"seen", pair_of(r.seen)}, {"predicted", pair_of(r.predicted)}, {"used", r.used}};
 }
 
+Json sighted_of(const Sighted& s) {
+  return {{"frame", s.frame}, {"body", s.body ? Json(kBodyKeys[*s.body]) : Json(nullptr)}, {"center", pair_of(s.center)}, {"diameter", number(s.diameter)}};
+}
+
 /// The shot's impulse, contact point, normal and time are those of its first impact.
 void write_first_impact(Json& json, const std::vector<Impact>& impacts) {
   if (impacts.empty()) {
@@ -71,6 +75,7 @@ std::string collision_json(const Reconstruction& r, const InputRecord& input, co
   json["reprojection_rms"] = number(r.reprojection_rms);
   json["held_out_rms"] = number(r.held_out_rms);
   json["frames"] = list_of(r.frames, [](const FramePose& f, std::size_t) { return frame_of(f); });
+  if (!r.sighted.empty()) json["sighted"] = list_of(r.sighted, [](const Sighted& s, std::size_t) { return sighted_of(s); });
   json["residuals"] = list_of(r.residuals, [](const Residual& x, std::size_t) { return residual_of(x); });
   return text_of(json);
 }

@@ -77,10 +77,19 @@ FramePose frame(const JsonField& json, std::size_t bodies) {
   return f;
 }
 
+int body_key(const JsonField& json) {
+  const std::string body = json.text();
+  if (body != "a" && body != "b") json.fail("a or b");
+  return body == "a" ? 0 : 1;
+}
+
+Sighted sighted(const JsonField& json) {
+  const JsonField body = json["body"];
+  return {json["frame"].index(kMost), body.is_null() ? std::nullopt : std::optional(body_key(body)), pair(json["center"]), json["diameter"].number()};
+}
+
 Residual residual(const JsonField& json) {
-  const std::string body = json["body"].text();
-  if (body != "a" && body != "b") json["body"].fail("a or b");
-  return {json["frame"].index(kMost), body == "a" ? 0 : 1, pair(json["seen"]), pair(json["predicted"]), json["used"].truth()};
+  return {json["frame"].index(kMost), body_key(json["body"]), pair(json["seen"]), pair(json["predicted"]), json["used"].truth()};
 }
 
 /// What stands for the whole shot must be what its first impact says.
@@ -110,6 +119,8 @@ void read_solution(Reconstruction& r, const JsonField& json) {
     r.ambiguous.push_back({field["what"].text(), field["restitution"].number(), r.fixed.empty() ? field["mass_ratio"].number() : 0.0,
                            field["excess"].number()});
   for (const JsonField& field : json["frames"].list()) r.frames.push_back(frame(field, r.bodies.size()));
+  if (json.has("sighted"))
+    for (const JsonField& field : json["sighted"].list()) r.sighted.push_back(sighted(field));
   for (const JsonField& field : json["residuals"].list()) r.residuals.push_back(residual(field));
 }
 

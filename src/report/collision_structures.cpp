@@ -115,12 +115,13 @@ void add_clip(SceneBuilder& scene, const Reconstruction& r, const std::vector<Ov
       times.push_back(static_cast<float>(p.time));
       frames.push_back(scene.bytes(p.jpeg));
     }
-    Json& clip = scene.add("image", "clip", "The clip with the solution drawn over it");
+    Json& clip = scene.add("image", "clip", r.frames.empty() ? "The clip with what was seen to move: grey is in no flight" : "The clip with the solution drawn over it");
     clip["width"] = pictures.front().width;
     clip["height"] = pictures.front().height;
     clip["format"] = "image/jpeg";
     clip["frames"] = std::move(frames);
     clip["times"] = scene.scalars(times);
+    if (r.frames.empty()) scene.header["time"] = {{"start", number(times.front())}, {"end", number(times.back())}};  // nothing else moves
   }
   if (!(r.camera.fx > 0) || r.camera.width <= 0) return;
   Json& camera = scene.add("camera", "camera", "Camera");

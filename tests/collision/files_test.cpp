@@ -23,7 +23,9 @@ std::string json_of(const Reconstruction& r) {
 }
 
 TEST(CollisionResult, RoundTripGivesTheSameText) {
-  for (const Reconstruction& r : {collision::sample_two_bodies().result, collision::sample_bounces().result, Reconstruction{}}) {
+  Reconstruction unsolved;
+  unsolved.sighted = {{3, 1, {20.5, 30}, 12}, {4, std::nullopt, {40, -1}, 0}};
+  for (const Reconstruction& r : {collision::sample_two_bodies().result, collision::sample_bounces().result, Reconstruction{}, unsolved}) {
     const std::string text = json_of(r);
     const Reconstruction back = parse_collision_result(text, "memory");
     EXPECT_EQ(nlohmann::json::parse(json_of(back)), nlohmann::json::parse(text));
@@ -42,6 +44,8 @@ TEST(CollisionResult, RoundTripGivesTheSameText) {
       EXPECT_EQ(back.impacts[i].between, r.impacts[i].between);
     }
     EXPECT_EQ(back.residuals.size(), r.residuals.size());
+    ASSERT_EQ(back.sighted.size(), r.sighted.size());
+    for (std::size_t i = 0; i < r.sighted.size(); ++i) EXPECT_TRUE(back.sighted[i].body == r.sighted[i].body && back.sighted[i].center == r.sighted[i].center);
     EXPECT_EQ(back.fits, r.fits);
   }
 }

@@ -106,6 +106,22 @@ TEST_F(OverlayTest, ALongShotGivesAtMostSoManyPictures) {
   EXPECT_TRUE(has_impact);
 }
 
+TEST_F(OverlayTest, CirclesWhatMovesWhereNothingWasSolved) {
+  sample.result.frames.clear();
+  sample.result.impacts.clear();
+  sample.result.sighted = {{70, 1, {200, 300}, 40}, {71, std::nullopt, {400, 100}, 60}};
+  const fs::path out = folder / "overlay.mp4";
+  const auto pictures = write_overlay(sample.shot, sample.result, out, context);
+  EXPECT_TRUE(fs::exists(out));
+  ASSERT_EQ(pictures.size(), 80u) << "half a second around, as far as the clip goes";
+  EXPECT_DOUBLE_EQ(pictures.front().time, 10 / 120.0);
+  EXPECT_GT(colored(decoded(pictures[60]), 220, 300), 60);
+  EXPECT_LT(colored(decoded(pictures[60]), 200, 300), 60) << "a circle, no disc";
+  const cv::Mat grey = decoded(pictures[61]);
+  EXPECT_LT(colored(grey, 430, 100), 30);
+  EXPECT_GT(std::abs(grey.at<cv::Vec3b>(100, 432)[1] - grey.at<cv::Vec3b>(100, 450)[1]), 60) << "its light rim";
+}
+
 TEST_F(OverlayTest, SkipsWhatHasNoVideoOrNoFlight) {
   const fs::path out = folder / "overlay.mp4";
   Sample s = sample;

@@ -19,9 +19,9 @@ struct OverlayPicture {
 };
 
 /// Draws the solution over the frames in which something flies, and half a second around: outlines of the bodies, the paths of their
-/// centres so far, where they touch, the number of the frame. Writes them as a video (MPEG-4; slowed down to 30 frames a second if the
+/// centres so far, where they touch, the number of the frame; without a flight, circles around what was seen to move. Writes them as a video (MPEG-4; slowed down to 30 frames a second if the
 /// shot has more than 60) unless `video` is empty, and gives at most 150 of them, 640 pixels wide, for the page. Nothing for a shot
-/// without video or a result without flight. Throws InputError if the one cannot be read or the other not be written.
+/// without video or a result in which nothing moves. Throws InputError if the one cannot be read or the other not be written.
 std::vector<OverlayPicture> write_overlay(const Shot& shot, const Reconstruction& reconstruction, const std::filesystem::path& video,
                                           Context& context);
 

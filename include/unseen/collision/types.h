@@ -126,6 +126,14 @@ struct Residual {
   bool used = true;  ///< false: held out, or an outlier
 };
 
+/// What was seen to move in a frame of a video. Pixels of the picture.
+struct Sighted {
+  int frame = 0;
+  std::optional<int> body;  ///< none: it is in no flight
+  Vec2 center = Vec2::Zero();
+  double diameter = 0;
+};
+
 /// A solution that explains the data nearly as well.
 struct Alternative {
   std::string what;
@@ -150,6 +158,7 @@ struct Reconstruction {
   std::vector<std::string> observability;
   std::vector<FramePose> frames;
   std::vector<Residual> residuals;
+  std::vector<Sighted> sighted;  ///< if nothing was solved, of a video
   double reprojection_rms = 0;  ///< px, of what was used
   double held_out_rms = 0;      ///< px, of what was held out
   std::optional<double> drag;   ///< Cd·A·ρ/(2m), 1/m, if drag took part
