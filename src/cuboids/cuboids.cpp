@@ -6,6 +6,7 @@
 #include "cuboids/search/complete.h"
 #include "cuboids/surfaces/depth_noise.h"
 #include "cuboids/surfaces/observation.h"
+#include "cuboids/surfaces/smear.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -43,9 +44,12 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
 Completion complete_cuboids(const RgbdFrame& frame, const Options& options, Context& context) {
   check_options(options);
   return run_cuboids(context, {}, [&](Completion& result) {
-    const Options exact = with_depth_noise(frame, options, context);
-    perceive(frame, exact, context, result);
-    complete_boxes(frame, exact, context, result);
+    const std::optional<RgbdFrame> sharp = without_smear(frame);
+    if (sharp) context.warn("the depth is smeared across edges, as of a phone: what lies between two surfaces counts to the nearer one, and sizes are good to two pixels");
+    const RgbdFrame& seen = sharp ? *sharp : frame;
+    const Options exact = with_depth_noise(seen, options, context);
+    perceive(seen, exact, context, result);
+    complete_boxes(seen, exact, context, result);
   });
 }
 

@@ -292,6 +292,57 @@ TEST(Desks, ThatAreSmallInThePictureCarryWhatMasksName) {
   EXPECT_TRUE(std::any_of(completion.supports.begin(), completion.supports.end(), [](const Support& s) { return s.kind == SupportKind::desk; }));
 }
 
+/// A frame with masks 1, 2, … on the first so many boxes of a scene, by their shade.
+RgbdFrame masked(const Scene& scene, int count) {
+  RgbdFrame frame = render(scene);
+  for (const auto& color : frame.color) {
+    int mask = 0;
+    for (int b = 1; b <= count; ++b)
+      if (color[2] == b * 120 % 256) mask = b;
+    frame.masks.push_back(mask);
+  }
+  return frame;
+}
+
+TEST(Desks, AreNoneBetweenRailsThroughWhichABeltIsSeen) {
+  Scene scene;
+  scene.height = 1.6, scene.pitch = radians(60.0);
+  scene.boxes = {upright(-0.25, 0.95, 0.5, {0.25, 0.2, 0.12}, 10), upright(0.2, 0.95, 0.5, {0.2, 0.25, 0.15}, -20), upright(0, 0.95, 0, {2.4, 0.6, 0.5}, 0),
+                 upright(0, 0.60, 0, {2.4, 0.1, 0.57}, 0), upright(0, 1.30, 0, {2.4, 0.1, 0.57}, 0)};
+  Context context;
+  const Completion completion = complete_cuboids(masked(scene, 2), {}, context);
+  ASSERT_EQ(completion.cuboids.size(), 2u);
+  for (int b = 0; b < 2; ++b) {
+    const OrientedBox& box = nearest(completion.cuboids, scene.boxes[b].center - Vec3(0, 0, 0.5)).box;
+    EXPECT_LT(size_error(box, scene.boxes[b]), 0.02) << b;
+  }
+}
+
+TEST(Desks, AreLevelWithTheGroundAndMakeNoDebrisOfBoxesAsHighAsThey) {
+  Scene scene;  // two steps with a box each: the one before the second step is as high as that
+  scene.height = 1.3;
+  scene.noise = 0.003;
+  scene.boxes = {upright(-0.3, 1.45, 0.17, {0.25, 0.14, 0.17}, 0), upright(0.25, 1.75, 0.34, {0.2, 0.14, 0.1}, 0), upright(0, 2.3, 0, {1.6, 2.0, 0.17}, 0), upright(0, 2.6, 0.17, {1.6, 2.0, 0.17}, 0)};
+  Context context;
+  const Completion completion = complete_cuboids(masked(scene, 2), {}, context);
+  EXPECT_EQ(completion.cuboids.size(), 2u);
+  EXPECT_GE(completion.supports.size(), 3u);
+  for (const Support& s : completion.supports)
+    if (s.kind == SupportKind::desk) EXPECT_LT(degrees(line_angle(s.plane.normal, completion.supports[0].plane.normal)), 0.01);
+}
+
+TEST(Supports, OutlinesStayWhereTheyWereSeenWhereUpWasGuessed) {
+  Level level;
+  level.plane = {Vec3(0.06, -0.08, 1).normalized(), -2.0};
+  level.outline = {{0, 0}, {1, 0}, {1, 1}};
+  const Vec3 u = Vec3::UnitX(), v = Vec3::UnitY();
+  const std::vector<Vec3> outline = lifted(level, u, v);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT((outline[i].head<2>() - level.outline[i]).norm(), 1e-12);
+    EXPECT_NEAR(level.plane.signed_distance(outline[i]), 0.0, 1e-12);
+  }
+}
+
 TEST(Walls, LeaveAThinPanelThatAMaskNames) {
   Scene scene = before_a_wall(2.5);
   scene.boxes[0] = upright(0.1, 2.5 - 0.015, 0, {1.0, 0.03, 0.8}, 0);

@@ -118,12 +118,13 @@ TEST(PlainColors, PrintsAreNoBoxes) {
   const auto label = [](const Vec3& p, int side) { return side != 5 && std::abs(p.x()) < 0.08 && std::abs(p.z() - 0.12) < 0.06 ? kWhite : kRed; };
   const auto band = [](const Vec3& p, int) { return std::abs(p.x()) < 0.03 ? kBlue : kYellow; };
   const auto belt = [](const Vec3& p, int side) { return side != 5 && std::abs(p.z() - 0.12) < 0.02 ? kGreen : kRed; };
+  const auto broad = [](const Vec3& p, int side) { return side != 5 && std::abs(p.z() - 0.12) < 0.05 ? kGreen : kRed; };
   const auto end = [](const Vec3& p, int) { return p.x() > 0.12 ? kBlue : kYellow; };
   const auto lid = [](const Vec3&, int side) { return side == 5 ? kBlue : kYellow; };
   const auto checks = [](const Vec3& p, int) { return (std::abs(p.x()) < 0.03) == (std::abs(p.z() - 0.12) < 0.04) ? kBlue : kYellow; };
   const auto spots = [](const Vec3& p, int) { return std::fmod(p.x() + p.y() + 10.0, 0.02) < 0.01 ? kBlue : kYellow; };
   for (const auto& [name, paint] : std::initializer_list<std::pair<const char*, std::function<Color(const Vec3&, int)>>>{
-           {"label", label}, {"band", band}, {"belt", belt}, {"end", end}, {"lid", lid}, {"checks", checks}, {"spots", spots}}) {
+           {"label", label}, {"band", band}, {"belt", belt}, {"broad belt", broad}, {"end", end}, {"lid", lid}, {"checks", checks}, {"spots", spots}}) {
     const std::vector<Cuboid> cuboids = perceive(painted(scene, paint)).cuboids;
     ASSERT_EQ(cuboids.size(), 1u) << name;
     EXPECT_LT(size_error(cuboids[0].box, scene.boxes[0]), 0.01) << name;

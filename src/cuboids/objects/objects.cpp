@@ -83,8 +83,8 @@ bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_
   }
   for (const Support& support : seen.supports) {
     std::vector<double> height;
-    for (const int i : part) height.push_back(support.plane.signed_distance(seen.points[i]) / seen.graph.sigma[i]);
-    if (std::abs(quantile(std::move(height), 0.9)) < kLowest) return true;
+    for (const int i : part) height.push_back(std::abs(support.plane.signed_distance(seen.points[i])) / seen.graph.sigma[i]);
+    if (quantile(std::move(height), 0.9) < kLowest) return true;
   }
   return false;
 }

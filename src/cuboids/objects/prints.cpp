@@ -10,8 +10,9 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kWithin = 0.9;      // of a region's points, in the extent of another one
-constexpr double kInLine = 0.2;      // of a size, by which the ends of pieces of one thing differ at most
-constexpr double kBandBetween = 0.6; // of the lesser size, that a band between them is long at most
+constexpr double kFlush = 0.05, kInLine = 0.2;  // of a size, by which the ends of pieces of one thing differ at most
+constexpr double kBandBetween = 0.6; // of the lesser size, that a band between them is long at most,
+constexpr double kBandAllRound = 2.0; // or if both begin and end alike beside it
 constexpr double kThinEnd = 0.2;     // of a thing's length, that its end in another colour goes beyond it at most
 
 /// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
@@ -19,12 +20,18 @@ constexpr double kThinEnd = 0.2;     // of a thing's length, that its end in ano
 bool goes_on(const DirectedExtent& a, const DirectedExtent& b) {
   const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = (a.high - a.low).cwiseMin(b.high - b.low);
   const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
-  int alike = 0, apart = 0;
+  int alike = 0, both_ends = 0, apart = 0;
+  double between = 0;
   for (int k = 0; k < 3; ++k) {
-    if (gap[k] > 0.0) apart += gap[k] < kBandBetween * size[k];
-    else alike += std::min(low[k], high[k]) < kInLine * size[k] + a.room;
+    if (gap[k] > 0.0) {
+      ++apart;
+      between = gap[k] / size[k];
+      continue;
+    }
+    alike += std::min(low[k], high[k]) < kInLine * size[k] + a.room;
+    both_ends += std::max(low[k], high[k]) < kFlush * size[k] + a.room;
   }
-  return alike == 2 && apart == 1;
+  return alike == 2 && apart == 1 && between < (both_ends >= 1 ? kBandAllRound : kBandBetween);
 }
 
 /// Whether b is no more than an end of a in another colour, as a lid or a band around it: as long along two directions, and along the third hardly beyond it.

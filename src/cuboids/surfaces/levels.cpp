@@ -20,6 +20,13 @@ double tolerance_at(const Scan& scan, const Face& face) {
   return 4.0 * scan.graph.sigma[face.points[face.points.size() / 2]];
 }
 
+/// The plane of a given normal through the middle of points.
+Plane plane_through(const Scan& scan, const std::vector<int>& points, const Vec3& normal) {
+  std::vector<double> heights;
+  for (const int i : points) heights.push_back(normal.dot(scan.points[i]));
+  return {normal, median(std::move(heights))};
+}
+
 }  // namespace
 
 std::vector<int> points_of(const Scan& scan, const std::vector<int>& faces) {
@@ -70,9 +77,14 @@ void level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level
   for (const Level& level : levels)
     if (const double error = tilt_error(scan, points_of(scan, level.faces)); error < least) least = error, surest = &level;
   if (surest == nullptr) return;
-  std::vector<double> heights;
-  for (const int i : points) heights.push_back(surest->plane.normal.dot(scan.points[i]));
-  ground.plane = {surest->plane.normal, median(std::move(heights))};
+  ground.plane = plane_through(scan, points, surest->plane.normal);
+}
+
+void level_with_ground(const Scan& scan, const Level& ground, Level& desk) {
+  constexpr double kLeaning = 6.0 * kPi / 180.0;
+  if (line_angle(desk.plane.normal, ground.plane.normal) > kLeaning) return;
+  const std::vector<int> points = points_of(scan, desk.faces);
+  if (tilt_error(scan, points) > tilt_error(scan, points_of(scan, ground.faces))) desk.plane = plane_through(scan, points, ground.plane.normal);
 }
 
 Plane fit_support(const Scan& scan, std::span<const int> points) {
@@ -137,8 +149,12 @@ void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v) {
 }
 
 std::vector<Vec3> lifted(const Level& level, const Vec3& u, const Vec3& v) {
+  const Vec3 along = u.cross(v);  // the outline was seen along it: the plane may lean against it
   std::vector<Vec3> outline;
-  for (const Vec2& p : level.outline) outline.push_back(level.plane.project(p.x() * u + p.y() * v));
+  for (const Vec2& p : level.outline) {
+    const Vec3 place = p.x() * u + p.y() * v;
+    outline.push_back(place - level.plane.signed_distance(place) / level.plane.normal.dot(along) * along);
+  }
   return outline;
 }
 

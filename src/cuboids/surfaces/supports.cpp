@@ -43,6 +43,35 @@ void weigh_levels(const Scan& scan, std::vector<Level>& levels, const Vec3& u, c
   }
 }
 
+/// Whether much that lies below a level was seen through its outline, as a belt between rails.
+bool is_seen_through(const Scan& scan, const Level& level, const Vec3& u, const Vec3& v) {
+  constexpr double kMuch = 0.3, kBelowAtLeast = 0.01;  // of the level's points; m
+  constexpr std::size_t kStep = 3;
+  std::size_t through = 0;
+  for (std::size_t i = 0; i < scan.points.size(); i += kStep) {
+    const Vec3& p = scan.points[i];
+    if (level.plane.signed_distance(p) > -(kBelowAtLeast + kOffPlane * scan.graph.sigma[i])) continue;
+    const Vec3 at = level.plane.offset / level.plane.normal.dot(p) * p;  // where its ray meets the level
+    through += inside_convex(level.outline, Vec2(u.dot(at), v.dot(at)), 0.0);
+  }
+  return static_cast<double>(kStep * through) > kMuch * static_cast<double>(points_of(scan, level.faces).size());
+}
+
+/// The faces of levels that were seen through become levels of their own: nothing stands on what is between them.
+void part_seen_through(const Scan& scan, const Vec3& u, const Vec3& v, std::vector<Level>& levels) {
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    if (levels[l].faces.size() < 2 || !is_seen_through(scan, levels[l], u, v)) continue;
+    const std::vector<int> others(levels[l].faces.begin() + 1, levels[l].faces.end());
+    levels[l].faces.resize(1);
+    levels[l].area = scan.faces.faces[levels[l].faces[0]].area;
+    set_outline(scan, levels[l], u, v);
+    for (const int f : others) {
+      levels.push_back(Level{levels[l].plane, scan.faces.faces[f].area, 0, {f}, {}});
+      set_outline(scan, levels.back(), u, v);
+    }
+  }
+}
+
 void add_support(FoundSupports& found, const Scan& scan, const Level& level, SupportKind kind, std::vector<Vec3> outline) {
   Support support;
   support.id = static_cast<int>(found.supports.size());
@@ -89,6 +118,7 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   const auto small = [&](const Level& level) { return level.area < kSmallestGroundShare * largest && pixels(level) < kSmallestGroundShare * most_pixels; };
   // Where masks name the objects, a small table under them is none: what it carries counts.
   if (!unnamed) std::erase_if(levels, small);
+  else if (scan.is_image) part_seen_through(scan, u, v, levels);
   weigh_levels(scan, levels, u, v);
   for (const Level& level : levels) most = std::max(most, level.carried);
   const double least = (unnamed ? kDeskShare : kCarryShare) * most;
@@ -105,9 +135,11 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   const bool ends = static_cast<double>(below) > kBelowShare * static_cast<double>(scan.points.size());
   add_support(found, scan, *ground, SupportKind::ground, ends ? lifted(*ground, u, v) : std::vector<Vec3>{});
 
-  for (const Level& level : levels)
-    if (unnamed && &level > &*ground && level.carried >= least && level.plane.normal.dot(found.up) > kHorizontal)
+  for (Level& level : levels)
+    if (unnamed && &level > &*ground && level.carried >= least && level.plane.normal.dot(found.up) > kHorizontal) {
+      level_with_ground(scan, *ground, level);
       add_support(found, scan, level, SupportKind::desk, lifted(level, u, v));
+    }
 
   for (Enclosing& side : find_enclosure(scan, upright, downward, ground->plane))
     add_support(found, scan, side.level, side.kind, std::move(side.outline));

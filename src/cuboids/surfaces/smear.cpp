@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "cuboids/surfaces/smear.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace unseen::cuboids {
+namespace {
+
+constexpr int kReach = 3;            // pixels, that an edge is smeared over to either side
+constexpr double kJump = 0.05;       // of the inverse depth, that lies between two surfaces,
+constexpr double kSteep = 4.0;       // and times what either changes by over as many pixels
+constexpr double kBetween = 0.15;    // of the jump, that a pixel is off either surface which is on none
+constexpr double kSmeared = 0.5;     // of all pixels at jumps: of sharp images a third at most are between surfaces
+constexpr std::size_t kFewest = 200;  // pixels at jumps
+
+/// What a row or column says of a pixel in it. A plane's inverse depth is linear in the picture.
+struct Jump {
+  double size = 0;       ///< of the inverse depth; 0 = there is none
+  double place = 0;      ///< of the pixel between both surfaces, 0…1
+  double continued = 0;  ///< inverse depth there of the surface that it is nearer to
+};
+
+Jump jump_at(const std::vector<float>& depth, std::size_t i, std::size_t step) {
+  double w[5];
+  for (int k = 0; k < 5; ++k) {
+    const double z = depth[i + static_cast<std::size_t>(k) * kReach * step - 2 * kReach * step];
+    if (!(z > 0.0) || !std::isfinite(z)) return {};
+    w[k] = 1.0 / z;
+  }
+  const double size = w[3] - w[1];
+  if (std::abs(size) < kJump * std::max(w[1], w[3]) || std::abs(size) < kSteep * std::max(std::abs(w[1] - w[0]), std::abs(w[4] - w[3]))) return {};
+  const double place = (w[2] - w[1]) / size;
+  return {std::abs(size), place, place < 0.5 ? 2.0 * w[1] - w[0] : 2.0 * w[3] - w[4]};
+}
+
+/// Calls f(pixel, jump) for each pixel at a jump, the larger one if there is one along its row and one along its column.
+template <class F>
+void for_jumps(const RgbdFrame& frame, F f) {
+  const int width = frame.camera.width, height = frame.camera.height, margin = 2 * kReach;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      const Jump across = x >= margin && x < width - margin ? jump_at(frame.depth, i, 1) : Jump{};
+      const Jump down = y >= margin && y < height - margin ? jump_at(frame.depth, i, static_cast<std::size_t>(width)) : Jump{};
+      if (const Jump& jump = across.size > down.size ? across : down; jump.size > 0.0) f(i, jump);
+    }
+}
+
+}  // namespace
+
+std::optional<RgbdFrame> without_smear(const RgbdFrame& frame) {
+  if (frame.is_fused() || frame.depth.size() != static_cast<std::size_t>(frame.camera.width) * std::max(frame.camera.height, 0)) return std::nullopt;
+  std::size_t jumps = 0, between = 0;
+  for_jumps(frame, [&](std::size_t, const Jump& jump) {
+    ++jumps;
+    between += jump.place > kBetween && jump.place < 1.0 - kBetween;
+  });
+  if (jumps < kFewest || static_cast<double>(between) < kSmeared * static_cast<double>(jumps)) return std::nullopt;
+  RgbdFrame sharp = frame;
+  for_jumps(frame, [&](std::size_t i, const Jump& jump) {
+    if (jump.continued > 0.0) sharp.depth[i] = static_cast<float>(1.0 / jump.continued);
+  });
+  return sharp;
+}
+
+}  // namespace unseen::cuboids
