@@ -11,15 +11,17 @@ namespace {
 constexpr int kReach = 3;            // pixels, that an edge is smeared over to either side
 constexpr double kJump = 0.05;       // of the inverse depth, that lies between two surfaces,
 constexpr double kSteep = 4.0;       // and times what either changes by over as many pixels
+constexpr double kClear = 2.0;       // times as much of both is no narrow side between two others
 constexpr double kBetween = 0.15;    // of the jump, that a pixel is off either surface which is on none
-constexpr double kSmeared = 0.5;     // of all pixels at jumps: of sharp images a third at most are between surfaces
-constexpr std::size_t kFewest = 200;  // pixels at jumps
+constexpr double kSmeared = 0.5;     // of the pixels at clear jumps are between surfaces; in sharp images, with stray pixels at edges, a quarter at most
+constexpr std::size_t kFewest = 200;  // pixels at clear jumps
 
 /// What a row or column says of a pixel in it. A plane's inverse depth is linear in the picture.
 struct Jump {
   double size = 0;       ///< of the inverse depth; 0 = there is none
   double place = 0;      ///< of the pixel between both surfaces, 0…1
   double continued = 0;  ///< inverse depth there of the surface that it is nearer to
+  bool clear = false;
 };
 
 Jump jump_at(const std::vector<float>& depth, std::size_t i, std::size_t step) {
@@ -29,10 +31,10 @@ Jump jump_at(const std::vector<float>& depth, std::size_t i, std::size_t step) {
     if (!(z > 0.0) || !std::isfinite(z)) return {};
     w[k] = 1.0 / z;
   }
-  const double size = w[3] - w[1];
-  if (std::abs(size) < kJump * std::max(w[1], w[3]) || std::abs(size) < kSteep * std::max(std::abs(w[1] - w[0]), std::abs(w[4] - w[3]))) return {};
+  const double size = w[3] - w[1], least = std::max(kJump * std::max(w[1], w[3]), kSteep * std::max(std::abs(w[1] - w[0]), std::abs(w[4] - w[3])));
+  if (std::abs(size) < least) return {};
   const double place = (w[2] - w[1]) / size;
-  return {std::abs(size), place, place < 0.5 ? 2.0 * w[1] - w[0] : 2.0 * w[3] - w[4]};
+  return {std::abs(size), place, place < 0.5 ? 2.0 * w[1] - w[0] : 2.0 * w[3] - w[4], std::abs(size) >= kClear * least};
 }
 
 /// Calls f(pixel, jump) for each pixel at a jump, the larger one if there is one along its row and one along its column.
@@ -54,6 +56,7 @@ std::optional<RgbdFrame> without_smear(const RgbdFrame& frame) {
   if (frame.is_fused() || frame.depth.size() != static_cast<std::size_t>(frame.camera.width) * std::max(frame.camera.height, 0)) return std::nullopt;
   std::size_t jumps = 0, between = 0;
   for_jumps(frame, [&](std::size_t, const Jump& jump) {
+    if (!jump.clear) return;
     ++jumps;
     between += jump.place > kBetween && jump.place < 1.0 - kBetween;
   });
