@@ -306,16 +306,14 @@ RgbdFrame masked(const Scene& scene, int count) {
 
 TEST(Desks, AreNoneBetweenRailsThroughWhichABeltIsSeen) {
   Scene scene;
-  scene.height = 1.6, scene.pitch = radians(60.0);
-  scene.boxes = {upright(-0.25, 0.95, 0.5, {0.25, 0.2, 0.12}, 10), upright(0.2, 0.95, 0.5, {0.2, 0.25, 0.15}, -20), upright(0, 0.95, 0, {2.4, 0.6, 0.5}, 0),
-                 upright(0, 0.60, 0, {2.4, 0.1, 0.57}, 0), upright(0, 1.30, 0, {2.4, 0.1, 0.57}, 0)};
+  scene.height = 1.98, scene.pitch = radians(63.0);
+  scene.width = 1280, scene.image_height = 720, scene.focal = 915;
+  scene.boxes = {upright(-0.6, 0.6, 0.76, {0.26, 0.22, 0.1}, 20), upright(-0.03, 0.57, 0.76, {0.33, 0.22, 0.2}, -10), upright(0.59, 0.51, 0.76, {0.3, 0.19, 0.1}, 5),
+                 upright(0.34, 0.68, 0.76, {0.18, 0.13, 0.1}, 30), upright(0, 0.6, 0, {2.4, 0.6, 0.76}, 0), upright(0, 0.28, 0, {2.4, 0.03, 0.84}, 0), upright(0, 0.92, 0, {2.4, 0.03, 0.84}, 0)};
   Context context;
-  const Completion completion = complete_cuboids(masked(scene, 2), {}, context);
-  ASSERT_EQ(completion.cuboids.size(), 2u);
-  for (int b = 0; b < 2; ++b) {
-    const OrientedBox& box = nearest(completion.cuboids, scene.boxes[b].center - Vec3(0, 0, 0.5)).box;
-    EXPECT_LT(size_error(box, scene.boxes[b]), 0.02) << b;
-  }
+  const Completion completion = complete_cuboids(masked(scene, 4), {}, context);
+  ASSERT_EQ(completion.cuboids.size(), 4u);
+  for (const Cuboid& cuboid : completion.cuboids) EXPECT_LT(size_error(cuboid.box, scene.boxes[std::stoi(cuboid.label) - 1]), 0.02) << cuboid.label;
 }
 
 TEST(Desks, AreLevelWithTheGroundAndMakeNoDebrisOfBoxesAsHighAsThey) {
