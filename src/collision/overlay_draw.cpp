@@ -66,6 +66,7 @@ void OverlayPen::trail(std::size_t body, int frame, cv::Mat& picture) const {
 }
 
 void OverlayPen::circle(const Sighted& seen, cv::Mat& picture) const {
+  if (!(seen.center.cwiseAbs().maxCoeff() < kFarthest && seen.diameter < kFarthest)) return;
   const cv::Scalar color = seen.body ? color_of(static_cast<std::size_t>(*seen.body)) : cv::Scalar::all(110);
   const int radius = cvRound(std::max(0.5 * seen.diameter, 3.0) * (1 << kShift)), width = width_for(picture);
   for (const bool rim : {true, false})
@@ -73,8 +74,8 @@ void OverlayPen::circle(const Sighted& seen, cv::Mat& picture) const {
 }
 
 void OverlayPen::draw(int frame, cv::Mat& picture) const {
-  for (const Sighted& seen : r_.sighted)
-    if (seen.frame == frame) circle(seen, picture);
+  const auto first = std::lower_bound(r_.sighted.begin(), r_.sighted.end(), frame, [](const Sighted& seen, int value) { return seen.frame < value; });
+  for (auto seen = first; seen != r_.sighted.end() && seen->frame == frame; ++seen) circle(*seen, picture);
   const FramePose* pose = nullptr;
   for (const FramePose& f : r_.frames)
     if (f.frame == frame) pose = &f;

@@ -4,6 +4,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -19,35 +20,43 @@ constexpr std::size_t kPage = std::size_t{1} << 21;
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) & ~(kPage - 1); }
 
-/// Parts of large pages, each of a power of two of bytes.
+/// Parts of large pages, each of a power of two of bytes, kSmallestPart at least.
 class Parts {
  public:
   void* take(std::size_t bytes) {
-    const std::size_t size = std::bit_ceil(bytes);
+    const std::size_t size = size_of(bytes);
     const std::lock_guard lock(mutex_);
     Free*& first = free_[std::bit_width(size)];
     if (first != nullptr) return std::exchange(first, first->next);
     if (size > left_) {
+      while (left_ > 0) {
+        const std::size_t rest = std::bit_floor(left_);
+        put_back(cut_off(rest), rest);
+      }
       page_ = static_cast<char*>(take_large_pages(kPage));
       left_ = kPage;
     }
-    left_ -= size;
-    return page_ + left_;
+    return cut_off(size);
   }
   void give_back(void* part, std::size_t bytes) {
     const std::lock_guard lock(mutex_);
-    Free*& first = free_[std::bit_width(std::bit_ceil(bytes))];
-    first = new (part) Free{first};
+    put_back(part, size_of(bytes));
   }
 
  private:
   struct Free {
     Free* next;
   };
+  static std::size_t size_of(std::size_t bytes) { return std::max(std::bit_ceil(bytes), kSmallestPart); }
+  char* cut_off(std::size_t size) { return page_ + (left_ -= size); }
+  void put_back(void* part, std::size_t size) {
+    Free*& first = free_[std::bit_width(size)];
+    first = new (part) Free{first};
+  }
   std::mutex mutex_;
   std::array<Free*, 64> free_{};  // by the bits of their size
-  char* page_ = nullptr;          // the latest, whose first bytes are
-  std::size_t left_ = 0;
+  char* page_ = nullptr;          // the latest one
+  std::size_t left_ = 0;          // bytes of it, from its begin, that are not given away
 };
 
 Parts& parts() {

@@ -16,7 +16,7 @@ bool has_large_pages();
 /// A part of a large page, of at least `bytes` (≤ kLargestPart). Parts that were returned are taken again: they never go back to the system.
 void* take_part_of_page(std::size_t bytes);
 void return_part_of_page(void* begin, std::size_t bytes);
-constexpr std::size_t kLargestPart = std::size_t{1} << 21;
+constexpr std::size_t kSmallestPart = std::size_t{1} << 13, kLargestPart = std::size_t{1} << 20;
 
 /// Memory of arrays that are filled once: to fill a page of 4 kB costs less than the fault of its first touch,
 /// and large pages have a five hundredth of the faults. Small arrays are allocated as ever.
@@ -30,19 +30,19 @@ struct LargePages {
   T* allocate(std::size_t count) {
     if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = count * sizeof(T);
-    if (bytes < kLeast || !has_large_pages()) return static_cast<T*>(::operator new(bytes));
+    if (bytes < kSmallestPart || !has_large_pages()) return static_cast<T*>(::operator new(bytes, kAlign));
     return static_cast<T*>(bytes > kLargestPart ? take_large_pages(bytes) : take_part_of_page(bytes));
   }
   void deallocate(T* begin, std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    if (bytes < kLeast || !has_large_pages()) return ::operator delete(begin);
+    if (bytes < kSmallestPart || !has_large_pages()) return ::operator delete(begin, kAlign);
     if (bytes > kLargestPart) return_large_pages(begin, bytes);
     else return_part_of_page(begin, bytes);
   }
   bool operator==(const LargePages&) const { return true; }
 
  private:
-  static constexpr std::size_t kLeast = std::size_t{1} << 13;  // bytes
+  static constexpr std::align_val_t kAlign{alignof(T)};
 };
 
 template <class T>

@@ -44,8 +44,7 @@ void perceive(const RgbdFrame& frame, const Options& options, Context& context, 
 Completion complete_cuboids(const RgbdFrame& frame, const Options& options, Context& context) {
   check_options(options);
   return run_cuboids(context, {}, [&](Completion& result) {
-    const std::optional<RgbdFrame> sharp = without_smear(frame);
-    if (sharp) context.warn("the depth is smeared across edges, as of a phone: what lies between two surfaces counts to the nearer one, and sizes are good to two pixels");
+    const std::optional<RgbdFrame> sharp = without_smear(frame, context);
     const RgbdFrame& seen = sharp ? *sharp : frame;
     const Options exact = with_depth_noise(seen, options, context);
     perceive(seen, exact, context, result);

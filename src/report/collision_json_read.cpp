@@ -85,7 +85,7 @@ int body_key(const JsonField& json) {
 
 Sighted sighted(const JsonField& json) {
   const JsonField body = json["body"];
-  return {json["frame"].index(kMost), body.is_null() ? std::nullopt : std::optional(body_key(body)), pair(json["center"]), json["diameter"].number()};
+  return {json["frame"].index(kMost), body.is_null() ? std::nullopt : std::optional(body_key(body)), pair(json["center"]), json["diameter"].number(0.0)};
 }
 
 Residual residual(const JsonField& json) {
@@ -120,7 +120,10 @@ void read_solution(Reconstruction& r, const JsonField& json) {
                            field["excess"].number()});
   for (const JsonField& field : json["frames"].list()) r.frames.push_back(frame(field, r.bodies.size()));
   if (json.has("sighted"))
-    for (const JsonField& field : json["sighted"].list()) r.sighted.push_back(sighted(field));
+    for (const JsonField& field : json["sighted"].list()) {
+      r.sighted.push_back(sighted(field));
+      if (r.sighted.size() > 1 && r.sighted.back().frame < r.sighted[r.sighted.size() - 2].frame) field["frame"].fail("frames in order");
+    }
   for (const JsonField& field : json["residuals"].list()) r.residuals.push_back(residual(field));
 }
 

@@ -83,7 +83,7 @@ void add_evidence_tables(SceneBuilder& scene, const Reconstruction& r) {
 
 void add_estimate(SceneBuilder& scene, std::string_view name, const std::optional<Estimate>& e, std::string_view help) {
   add_fact(scene, name, e ? value_text(*e) : "no confident value", help);
-  if (e) add_fact(scene, "its 95 % interval", interval_text(*e));
+  if (e) add_fact(scene, fmt::format("{}, 95 %", name), interval_text(*e));
 }
 
 void add_facts(SceneBuilder& scene, const Reconstruction& r) {

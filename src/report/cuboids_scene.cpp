@@ -76,8 +76,8 @@ void add_contact_table(SceneBuilder& scene, const Completion& c) {
 void add_facts(SceneBuilder& scene, const Completion& c, const OptionTable& options) {
   const auto completed = std::count_if(c.cuboids.begin(), c.cuboids.end(), [](const auto& cuboid) { return cuboid.is_completed(); });
   add_fact(scene, "stands", c.stability.stable ? "yes" : "no", "Whether forces at the contacts, within friction, can hold all boxes up");
-  if (!c.may_move.empty()) add_fact(scene, "of them doubtfully", std::to_string(c.may_move.size()), "Boxes that stand within the tolerance of their contacts only, or fall at a slight push");
   add_fact(scene, "boxes", std::to_string(c.cuboids.size()));
+  if (!c.may_move.empty()) add_fact(scene, "boxes that may move", std::to_string(c.may_move.size()), "They stand within the tolerance of their contacts only, or fall at a slight push");
   add_fact(scene, "boxes completed", std::to_string(completed), "Boxes with a part that the picture does not show");
   add_fact(scene, "inferred volume", volume_text(c.extended_volume), "Of all parts that the picture does not show");
   add_fact(scene, "contacts", std::to_string(c.contacts.size()));
@@ -130,7 +130,8 @@ std::string cuboids_scene(const Completion& c, const InputRecord& input, const O
 }
 
 std::string volume_text(double volume) {
-  const double litres = 1000.0 * volume;
+  constexpr double kNothing = 1e-4;
+  const double litres = 1000.0 * volume < kNothing ? 0.0 : 1000.0 * volume;
   return litres < 100.0 ? fmt::format("{:.3g} l", litres) : fmt::format("{:.0f} l", litres);
 }
 

@@ -307,7 +307,7 @@ class Refused(CliTest):
 
     def test_usage(self):
         frames.write_frame(self.folder)
-        for arguments in (("--support", "0,0,0,1"), ("--support", "up"), ("--friction", "-1"), ("--mu", "x"), ("--boxes", "3")):
+        for arguments in (("--support", "0,0,0,1"), ("--support", "up"), ("--friction", "-1"), ("--mu", "x"), ("--mu", "0.5", "--friction", "0.6"), ("--boxes", "3")):
             with self.subTest(arguments=arguments):
                 self.assert_refused(arguments=arguments, code=2)
         self.assert_one_line(self.unseen("cuboids", "frame.json"), 2, "-o OUT")

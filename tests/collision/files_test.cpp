@@ -109,6 +109,9 @@ TEST(CollisionResult, RefusesWhatContradictsItself) {
   expect_refused("/frames/4/a/q", {1, 0, 0}, "frames[4].a.q");
   expect_refused("/residuals/0/body", "c", "residuals[0].body");
   expect_refused("/energy/after", -1, "energy.after");
+  const auto sighted = [](int frame, double diameter) { return nlohmann::json{{"frame", frame}, {"body", "a"}, {"center", {1, 2}}, {"diameter", diameter}}; };
+  expect_refused("/sighted", nlohmann::json::array({sighted(3, -1)}), "sighted[0].diameter");
+  expect_refused("/sighted", nlohmann::json::array({sighted(3, 1), sighted(2, 1)}), "sighted[1].frame");
 }
 
 TEST(CollisionResult, RefusesHostileText) {

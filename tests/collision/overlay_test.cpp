@@ -122,6 +122,12 @@ TEST_F(OverlayTest, CirclesWhatMovesWhereNothingWasSolved) {
   EXPECT_GT(std::abs(grey.at<cv::Vec3b>(100, 432)[1] - grey.at<cv::Vec3b>(100, 450)[1]), 60) << "its light rim";
 }
 
+TEST_F(OverlayTest, LeavesOutCirclesBeyondAllBounds) {
+  sample.result.frames.clear();
+  sample.result.sighted = {{3, 0, {1e100, 10}, 5}, {3, 0, {10, 10}, 1e12}};
+  EXPECT_FALSE(write_overlay(sample.shot, sample.result, "", context).empty());
+}
+
 TEST_F(OverlayTest, SkipsWhatHasNoVideoOrNoFlight) {
   const fs::path out = folder / "overlay.mp4";
   Sample s = sample;

@@ -23,6 +23,7 @@ TEST(CuboidsResult, RoundTripGivesTheSameText) {
     const std::string text = json_of(c);
     const cuboids::Completion back = parse_cuboids_result(text, "memory");
     EXPECT_EQ(back.T_world_camera.rotation, c.T_world_camera.rotation);
+    EXPECT_EQ(back.may_move, c.may_move);
     ASSERT_EQ(back.cuboids.size(), c.cuboids.size());
     for (std::size_t i = 0; i < c.cuboids.size(); ++i) {
       EXPECT_EQ(back.cuboids[i].box.axes, c.cuboids[i].box.axes);

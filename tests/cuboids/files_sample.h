@@ -67,6 +67,7 @@ inline Completion sample_completion() {
   c.stability = {1.0 / 3.0 * 1e-9, true, 0.25, 0.1};
   c.fixed_contacts = 1;
   c.extended_volume = 0.3 * 0.2 * 0.12;
+  c.may_move = {3};
   c.search = {17, 5, true};
   c.summary.seconds = {{"observe", 0.25}};
   c.summary.energy = {{"residual", 0.1}};

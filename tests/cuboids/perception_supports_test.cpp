@@ -329,6 +329,14 @@ TEST(Desks, AreLevelWithTheGroundAndMakeNoDebrisOfBoxesAsHighAsThey) {
     if (s.kind == SupportKind::desk) EXPECT_LT(degrees(line_angle(s.plane.normal, completion.supports[0].plane.normal)), 0.01);
 }
 
+TEST(Desks, MakeNoDebrisOfBoxesBesideThemWhoseTopsAreAsHigh) {
+  Scene scene;  // seen from above: of the box on the floor hardly more than its top
+  scene.height = 1.5, scene.pitch = radians(85.0);
+  scene.boxes = {upright(-0.3, 0.15, 0.17, {0.15, 0.15, 0.12}, 10), upright(0.35, 0.15, 0, {0.2, 0.2, 0.17}, 5), upright(-0.35, 0.15, 0, {0.6, 0.6, 0.17}, 0)};
+  Context context;
+  EXPECT_EQ(complete_cuboids(masked(scene, 2), {}, context).cuboids.size(), 2u);
+}
+
 TEST(Supports, OutlinesStayWhereTheyWereSeenWhereUpWasGuessed) {
   Level level;
   level.plane = {Vec3(0.06, -0.08, 1).normalized(), -2.0};

@@ -72,6 +72,13 @@ TEST(PlainColors, PartBricksOfAWall) {
 }
 
 /// White is the floor's grey in another light.
+/// One colour around another: of three equal boxes it is no band.
+TEST(PlainColors, PartThreeEqualBoxesOfTwoColors) {
+  const Scene row = wall(3, 1, {0.2, 0.2, 0.2}), stack = wall(1, 3, {0.25, 0.15, 0.1});
+  EXPECT_EQ(perceive(painted(row, [](const Vec3& p, int) { return std::abs(p.x()) < 0.1 ? kBlue : kRed; })).cuboids.size(), 3u);
+  EXPECT_EQ(perceive(painted(stack, [](const Vec3& p, int) { return std::abs(p.z() - 0.15) < 0.05 ? kBlue : kRed; })).cuboids.size(), 3u);
+}
+
 TEST(PlainColors, PartBoxesThatHaveTheColorOfTheFloor) {
   const Vec3 carton(0.16, 0.2, 0.18);
   const Scene row = wall(3, 1, carton);

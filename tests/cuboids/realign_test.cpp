@@ -144,6 +144,7 @@ TEST(Complete, WarnsOfWhatStaysUprightByChance) {
     const auto fixed = std::count_if(c.contacts.begin(), c.contacts.end(), [](const Contact& contact) { return contact.kind == ContactKind::fixed; });
     EXPECT_EQ(fixed, width < 0.01) << width;
     EXPECT_EQ(warned, width > 0.01 && width < 0.05) << width;
+    EXPECT_EQ(c.may_move, warned == 0 ? std::vector<int>{} : std::vector<int>{1}) << width;
   }
 }
 

@@ -44,9 +44,10 @@ RgbdFrame smeared(RgbdFrame frame) {
 
 TEST(Smear, IsTakenBackAndSharpDepthIsLeft) {
   const RgbdFrame truth = render(phone()), blurred = smeared(truth);
-  EXPECT_FALSE(without_smear(truth));
-  EXPECT_FALSE(without_smear(render(Scene{phone().boxes})));
-  const std::optional<RgbdFrame> sharp = without_smear(blurred);
+  Context context;
+  EXPECT_FALSE(without_smear(truth, context));
+  EXPECT_FALSE(without_smear(render(Scene{phone().boxes}), context));
+  const std::optional<RgbdFrame> sharp = without_smear(blurred, context);
   ASSERT_TRUE(sharp);
   std::size_t off_before = 0, off_after = 0;  // by more than 5 cm
   for (std::size_t i = 0; i < truth.depth.size(); ++i) {

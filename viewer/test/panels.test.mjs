@@ -38,7 +38,9 @@ test('the panel can be made wider', async () => {
   await page.locator('.side-edge').focus();
   const dragged = await width();
   await page.keyboard.press('ArrowRight');
-  assert.ok(Math.abs((await width()) - dragged + 40) < 6);
+  assert.ok(Math.abs((await width()) - dragged + 40) < 1.5);
+  await page.setViewportSize({ width: 900, height: 700 });
+  assert.ok((await width()) <= 631, 'no wider than seven tenths of the page');
   await close();
 });
 

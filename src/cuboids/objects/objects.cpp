@@ -82,8 +82,12 @@ bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_
     if (width < kStrip * seen.graph.spacing[part.front()]) return true;
   }
   for (const Support& support : seen.supports) {
+    const std::vector<Vec2> outline = plan_of(support);
     std::vector<double> height;
-    for (const int i : part) height.push_back(std::abs(support.plane.signed_distance(seen.points[i])) / seen.graph.sigma[i]);
+    for (const int i : part) {
+      const bool beside = !outline.empty() && support.kind <= SupportKind::desk && !inside_convex(outline, seen.points[i].head<2>(), kOutside);
+      height.push_back(beside ? kLowest : std::abs(support.plane.signed_distance(seen.points[i])) / seen.graph.sigma[i]);
+    }
     if (quantile(std::move(height), 0.9) < kLowest) return true;
   }
   return false;

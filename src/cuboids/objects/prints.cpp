@@ -12,26 +12,29 @@ namespace {
 constexpr double kWithin = 0.9;      // of a region's points, in the extent of another one
 constexpr double kFlush = 0.05, kInLine = 0.2;  // of a size, by which the ends of pieces of one thing differ at most
 constexpr double kBandBetween = 0.6; // of the lesser size, that a band between them is long at most,
-constexpr double kBandAllRound = 2.0; // or if both begin and end alike beside it
+constexpr double kBroadBand = 2.0;   // or if both begin and end alike along a side of it,
+constexpr double kAsLong = 0.1;      // and it is not as long as one of them, as the middle one of three equal boxes
 constexpr double kThinEnd = 0.2;     // of a thing's length, that its end in another colour goes beyond it at most
 
 /// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
-/// than either is long.
+/// than either is long; by more only if along one direction they begin and end alike.
 bool goes_on(const DirectedExtent& a, const DirectedExtent& b) {
   const Vec3 low = (a.low - b.low).cwiseAbs(), high = (a.high - b.high).cwiseAbs(), size = (a.high - a.low).cwiseMin(b.high - b.low);
   const Vec3 gap = a.low.cwiseMax(b.low) - a.high.cwiseMin(b.high);
   int alike = 0, both_ends = 0, apart = 0;
   double between = 0;
+  bool as_long = false;
   for (int k = 0; k < 3; ++k) {
     if (gap[k] > 0.0) {
       ++apart;
       between = gap[k] / size[k];
+      as_long = std::abs(gap[k] / (a.high[k] - a.low[k]) - 1.0) < kAsLong || std::abs(gap[k] / (b.high[k] - b.low[k]) - 1.0) < kAsLong;
       continue;
     }
     alike += std::min(low[k], high[k]) < kInLine * size[k] + a.room;
     both_ends += std::max(low[k], high[k]) < kFlush * size[k] + a.room;
   }
-  return alike == 2 && apart == 1 && between < (both_ends >= 1 ? kBandAllRound : kBandBetween);
+  return alike == 2 && apart == 1 && (between < kBandBetween || (between < kBroadBand && both_ends >= 1 && !as_long));
 }
 
 /// Whether b is no more than an end of a in another colour, as a lid or a band around it: as long along two directions, and along the third hardly beyond it.

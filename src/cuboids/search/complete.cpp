@@ -9,6 +9,7 @@
 #include "cuboids/search/hypotheses.h"
 #include "cuboids/search/trims.h"
 #include "cuboids/surfaces/depth_noise.h"
+#include "cuboids/surfaces/smear.h"
 #include "unseen/cuboids/cuboids.h"
 
 namespace unseen::cuboids {
@@ -197,9 +198,11 @@ Completion complete_cuboids(const RgbdFrame& frame, const Completion& scene, con
   start.supports = scene.supports;
   start.cuboids = scene.cuboids;
   return run_cuboids(context, std::move(start), [&](Completion& result) {
-    const Options exact = with_depth_noise(frame, options, context);
-    realign(frame, exact, result, context);
-    complete_boxes(frame, exact, context, result);
+    const std::optional<RgbdFrame> sharp = without_smear(frame, context);
+    const RgbdFrame& seen = sharp ? *sharp : frame;
+    const Options exact = with_depth_noise(seen, options, context);
+    realign(seen, exact, result, context);
+    complete_boxes(seen, exact, context, result);
   });
 }
 

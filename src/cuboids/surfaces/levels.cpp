@@ -67,24 +67,25 @@ std::vector<Level> coplanar(const Scan& scan, std::vector<int> faces) {
   return levels;
 }
 
-void level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level& ground) {
+double level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level& ground) {
   constexpr double kVague = 0.015, kSurer = 0.5;  // rad; of the ground's error
   const std::vector<int> points = points_of(scan, ground.faces);
-  double least = tilt_error(scan, points);
-  if (least < kVague) return;
-  least *= kSurer;
+  const double own = tilt_error(scan, points);
+  if (own < kVague) return own;
+  double least = kSurer * own;
   const Level* surest = nullptr;
   for (const Level& level : levels)
     if (const double error = tilt_error(scan, points_of(scan, level.faces)); error < least) least = error, surest = &level;
-  if (surest == nullptr) return;
+  if (surest == nullptr) return own;
   ground.plane = plane_through(scan, points, surest->plane.normal);
+  return least;
 }
 
-void level_with_ground(const Scan& scan, const Level& ground, Level& desk) {
+void level_with_ground(const Scan& scan, const Vec3& normal, double error, Level& desk) {
   constexpr double kLeaning = 6.0 * kPi / 180.0;
-  if (line_angle(desk.plane.normal, ground.plane.normal) > kLeaning) return;
+  if (line_angle(desk.plane.normal, normal) > kLeaning) return;
   const std::vector<int> points = points_of(scan, desk.faces);
-  if (tilt_error(scan, points) > tilt_error(scan, points_of(scan, ground.faces))) desk.plane = plane_through(scan, points, ground.plane.normal);
+  if (tilt_error(scan, points) > error) desk.plane = plane_through(scan, points, normal);
 }
 
 Plane fit_support(const Scan& scan, std::span<const int> points) {

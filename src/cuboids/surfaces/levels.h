@@ -52,10 +52,11 @@ void set_outline(const Scan& scan, Level& level, const Vec3& u, const Vec3& v);
 std::vector<Vec3> lifted(const Level& level, const Vec3& u, const Vec3& v);
 
 /// A ground of which no more than a strip is seen, as behind a table, tells little of up: then the level does whose normal is surest.
-void level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level& ground);
+/// @returns the standard error of the ground's normal (rad)
+double level_with_surest(const Scan& scan, const std::vector<Level>& levels, Level& ground);
 
-/// A desk is level with the ground, if that tells better how it lies and no more than a few degrees say otherwise.
-void level_with_ground(const Scan& scan, const Level& ground, Level& desk);
+/// A desk is level with the ground of that normal (standard error: rad), if that tells better how it lies and no more than a few degrees say otherwise.
+void level_with_ground(const Scan& scan, const Vec3& normal, double error, Level& desk);
 
 /// Plane through points, robust. For an image the linear regression of 1/z on the ray, whose noise is the same
 /// everywhere; for a cloud weighted total least squares. The normal points to the viewpoint.

@@ -11,7 +11,8 @@ namespace {
 constexpr int kReach = 3;            // pixels, that an edge is smeared over to either side
 constexpr double kJump = 0.05;       // of the inverse depth, that lies between two surfaces,
 constexpr double kSteep = 4.0;       // and times what either changes by over as many pixels
-constexpr double kClear = 2.0;       // times as much of both is no narrow side between two others
+constexpr double kNoFarther = 0.5;    // of the lesser inverse depth: no surface goes on farther than twice as far
+constexpr double kClear = 2.0;       // times as large a jump has no narrow side between its surfaces
 constexpr double kBetween = 0.15;    // of the jump, that a pixel is off either surface which is on none
 constexpr double kSmeared = 0.5;     // of the pixels at clear jumps are between surfaces; in sharp images, with stray pixels at edges, a quarter at most
 constexpr std::size_t kFewest = 200;  // pixels at clear jumps
@@ -34,7 +35,8 @@ Jump jump_at(const std::vector<float>& depth, std::size_t i, std::size_t step) {
   const double size = w[3] - w[1], least = std::max(kJump * std::max(w[1], w[3]), kSteep * std::max(std::abs(w[1] - w[0]), std::abs(w[4] - w[3])));
   if (std::abs(size) < least) return {};
   const double place = (w[2] - w[1]) / size;
-  return {std::abs(size), place, place < 0.5 ? 2.0 * w[1] - w[0] : 2.0 * w[3] - w[4], std::abs(size) >= kClear * least};
+  const double continued = place < 0.5 ? 2.0 * w[1] - w[0] : 2.0 * w[3] - w[4];
+  return {std::abs(size), place, std::max(continued, kNoFarther * std::min(w[1], w[3])), std::abs(size) >= kClear * least};
 }
 
 /// Calls f(pixel, jump) for each pixel at a jump, the larger one if there is one along its row and one along its column.
@@ -52,7 +54,7 @@ void for_jumps(const RgbdFrame& frame, F f) {
 
 }  // namespace
 
-std::optional<RgbdFrame> without_smear(const RgbdFrame& frame) {
+std::optional<RgbdFrame> without_smear(const RgbdFrame& frame, Context& context) {
   if (frame.is_fused() || frame.depth.size() != static_cast<std::size_t>(frame.camera.width) * std::max(frame.camera.height, 0)) return std::nullopt;
   std::size_t jumps = 0, between = 0;
   for_jumps(frame, [&](std::size_t, const Jump& jump) {
@@ -63,8 +65,9 @@ std::optional<RgbdFrame> without_smear(const RgbdFrame& frame) {
   if (jumps < kFewest || static_cast<double>(between) < kSmeared * static_cast<double>(jumps)) return std::nullopt;
   RgbdFrame sharp = frame;
   for_jumps(frame, [&](std::size_t i, const Jump& jump) {
-    if (jump.continued > 0.0) sharp.depth[i] = static_cast<float>(1.0 / jump.continued);
+    sharp.depth[i] = static_cast<float>(1.0 / jump.continued);
   });
+  context.warn("the depth is smeared across edges, as of a phone: what lies between two surfaces goes to the one whose depth it is closer to, and sizes are good to two pixels");
   return sharp;
 }
 

@@ -126,7 +126,8 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   std::stable_sort(levels.begin(), levels.end(), [&](const Level& a, const Level& b) { return height(a) < height(b); });
   const auto ground = std::find_if(levels.begin(), levels.end(),
                                    [&](const Level& level) { return level.carried >= least; });
-  level_with_surest(scan, levels, *ground);
+  const Plane own = ground->plane;  // also that of what was parted from it
+  const double error = level_with_surest(scan, levels, *ground);
   found.up = ground->plane.normal;
   // A surface that something was seen below ends where it was seen to end; another one goes on.
   const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) {
@@ -136,8 +137,8 @@ FoundSupports find_supports(const Scan& scan, const Vec3& up, bool unnamed) {
   add_support(found, scan, *ground, SupportKind::ground, ends ? lifted(*ground, u, v) : std::vector<Vec3>{});
 
   for (Level& level : levels)
-    if (unnamed && &level > &*ground && level.carried >= least && level.plane.normal.dot(found.up) > kHorizontal) {
-      level_with_ground(scan, *ground, level);
+    if (unnamed && &level > &*ground && level.carried >= least && level.plane.normal.dot(found.up) > kHorizontal && (level.plane.normal != own.normal || level.plane.offset != own.offset)) {
+      level_with_ground(scan, found.up, error, level);
       add_support(found, scan, level, SupportKind::desk, lifted(level, u, v));
     }
 

@@ -61,7 +61,11 @@ export function legend(app: App, view: SceneView): HTMLElement {
     body.replaceChildren(...[...parts.values()].slice(0, 3));
   };
   roomy.addEventListener('change', () => (card.open = roomy.matches));
-  app.on('print', () => (card.open = app.printing || roomy.matches));
+  let before = card.open;
+  app.on('print', () => {
+    if (app.printing) before = card.open;
+    card.open = app.printing || before;
+  });
   app.on('layers', draw);
   draw();
   return card;

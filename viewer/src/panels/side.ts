@@ -52,6 +52,7 @@ export function sidePanel(app: App): HTMLElement {
   const width = (px: number) => document.documentElement.style.setProperty('--side', `${Math.round(Math.min(Math.max(300, px), 0.7 * innerWidth))}px`);
   const edge = h('div', { class: 'side-edge', role: 'separator', 'aria-orientation': 'vertical', 'aria-label': 'Width of the panel', tabindex: '0', title: 'Drag to widen' });
   edge.addEventListener('pointerdown', (e) => {
+    if (e.button !== 0) return;
     e.preventDefault();
     edge.setPointerCapture(e.pointerId);
   });
@@ -63,7 +64,7 @@ export function sidePanel(app: App): HTMLElement {
     if (!step) return;
     e.preventDefault();
     e.stopPropagation();
-    width(innerWidth - edge.getBoundingClientRect().left + step);
+    width(edge.parentElement!.getBoundingClientRect().width + step);
   });
   app.on('active', draw);
   queueMicrotask(draw);

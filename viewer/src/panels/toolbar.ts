@@ -8,6 +8,7 @@ import { copyPicture, exportPng } from './picture';
 function sectionPopover(app: App): HTMLElement {
   const slider = h('input', { type: 'range', min: '0', max: '1000', step: '1', 'aria-label': 'Place of the section plane' });
   const value = h('output', { class: 'quiet' });
+  const close = h('button', { type: 'button', class: 'link', title: 'Esc', onclick: () => close.parentElement!.dispatchEvent(new Event('close')) }, 'Close, keep the cut');
   const axes = (['off', 'x', 'y', 'z'] as const).map((a) => h('button', { type: 'button', 'aria-pressed': 'false', onclick: () => app.setSection(a === 'off' ? null : a) }, a === 'off' ? 'Off' : a));
   const flip = h('label', { class: 'check' }, h('input', { type: 'checkbox', onchange: (e: Event) => app.setSection(app.section.axis, app.section.value, (e.target as HTMLInputElement).checked) }), 'show the other side');
   const range = (axis: Axis): [number, number] => [app.box.min[axis], app.box.max[axis]];
@@ -30,7 +31,7 @@ function sectionPopover(app: App): HTMLElement {
   };
   app.on('section', show);
   show();
-  return h('div', { class: 'popover', id: 'section-popover', hidden: true, role: 'group', 'aria-label': 'Section plane' }, h('div', { class: 'segments' }, ...axes), slider, value, flip);
+  return h('div', { class: 'popover', id: 'section-popover', hidden: true, role: 'group', 'aria-label': 'Section plane' }, h('div', { class: 'segments' }, ...axes), slider, value, flip, close);
 }
 
 export function toolbar(app: App, title: string, help: () => void): HTMLElement {
@@ -41,7 +42,7 @@ export function toolbar(app: App, title: string, help: () => void): HTMLElement 
     popover.hidden = !on;
     section.setAttribute('aria-expanded', String(on));
   };
-  // The cut ends with the box, unless Escape puts that away.
+  // The cut ends with the box, unless that is closed from within or by Escape.
   const section = iconButton('section', 'Section plane (S)', () => {
     open(popover.hidden);
     if (popover.hidden) app.setSection(null);
