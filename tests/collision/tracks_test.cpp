@@ -10,7 +10,6 @@
 #include <set>
 
 #include "collision/pair_scene.h"
-#include "collision/sighted.h"
 #include "collision/tracks/arcs.h"
 #include "collision/tracks/chain.h"
 #include "unseen/core/random.h"
@@ -390,27 +389,6 @@ TEST(Pair, DistortionIsTakenOut) {
   }
   Context context;
   expect_pair(find_tracks(pair_shot(0.08, 0.05), bent, sightings, kFps, context), motion, 0.5, 25);
-}
-
-TEST(SightedIn, NamesWhatFliesAndLeavesShadowsOut) {
-  Footage footage;
-  for (int f = 0; f < 2; ++f) {
-    Region ball, hand, shade;
-    ball.centroid = {10.0 + f, 20};
-    ball.diameter = 5;
-    hand.centroid = {100, 50};
-    shade.shadow = true;
-    footage.regions.push_back({hand, shade, ball});
-  }
-  Tracks tracks;
-  tracks.points = {{0, 1, 0.1, {11, 20}, 5, 2}};
-  tracks.spans = {{0, 0, 1}};
-  const std::vector<Sighted> seen = sighted_in(footage, tracks);
-  ASSERT_EQ(seen.size(), 4u) << "hand and ball, twice";
-  EXPECT_FALSE(seen[0].body || seen[1].body || seen[2].body);
-  EXPECT_EQ(seen[3].body, 0);
-  EXPECT_EQ(seen[3].frame, 1);
-  EXPECT_EQ(seen[3].center, Vec2(11, 20));
 }
 
 }  // namespace
