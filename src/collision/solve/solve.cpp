@@ -58,6 +58,17 @@ std::optional<Proximity> touch_of(const Problem& problem, const State& state) {
   return nearest(a, state.p[0], state.q[0], problem.solids[1], state.p[1], state.q[1], tolerance);
 }
 
+/// Where on an edge or face that meets a plane the impulse may have acted: as near as can be to the line of the impulse, which turned the body as was seen.
+Vec3 start_on(const Feature& feature, const State& state) {
+  const Vec3 n = feature.axes.col(0), to = feature.point - state.x;
+  const double along = n.dot(state.impulse);
+  if (std::abs(along) < 1e-9) return feature.point;
+  const Vec3 off = state.impulse * (n.dot(to) / along) - to;
+  Vec3 start = feature.point;
+  for (int i = 1; i < 3; ++i) start += feature.axes.col(i) * std::clamp(feature.axes.col(i).dot(off), -feature.extent[i], feature.extent[i]);
+  return start;
+}
+
 /// How the contact's normal follows the bodies, where it does not follow the impulse.
 std::optional<ContactLaw> law_of(const Problem& problem, const State& state, const std::optional<Proximity>& touch) {
   if (!problem.friction) return std::nullopt;
@@ -197,7 +208,7 @@ Fit settle(const Problem& problem, const State& start) {
     fit.touch = touch_of(problem, fit.state);
     if (fit.touch && !fit.state.law) {
       fit.state.law = law_of(problem, fit.state, fit.touch);
-      fit.state.x = 0.5 * (fit.touch->point_a + fit.touch->point_b);
+      fit.state.x = problem.fixed && !problem.solids[0].is_sphere() ? start_on(fit.touch->features[0], fit.state) : 0.5 * (fit.touch->point_a + fit.touch->point_b);
       descend(without_bounds(problem), fit.touch, kIterations, fit.state, fit.cost);
     }
     fit.state.law = law_of(problem, fit.state, fit.touch);

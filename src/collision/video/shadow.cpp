@@ -21,6 +21,7 @@ constexpr double kWeakGray = 0.1;              // of a pixel's brightness off th
 constexpr int kBright = 200;                   // grey levels or brighter: there sensors begin to clip
 constexpr double kSide = 0.5;                  // of the rest: more is no side of it
 constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
+constexpr double kConvex = 0.955, kConvexPiece = 0.88;  // of the hull: body with a flat side in its shade; the side
 constexpr double kWhole = 0.85;                 // share of a part that makes it a shadow
 constexpr double kRound = 0.88;                // share of its bounding circle: a part like that is a ball with its shaded side, if
 constexpr double kLitSide = 0.35;              // of it is no shadow
@@ -126,6 +127,23 @@ std::vector<Piece> pieces_of(const cv::Mat& frame, const cv::Mat& background, cv
   return pieces;
 }
 
+/// Share of its convex hull that a mask fills, and its corners.
+double solidity(const cv::Mat& mask) {
+  std::vector<cv::Point> points, corners;
+  cv::findNonZero(mask, points);
+  cv::convexHull(points, corners);
+  cv::Mat hull = cv::Mat::zeros(mask.size(), CV_8U);
+  cv::fillConvexPoly(hull, corners, cv::Scalar(255));
+  return static_cast<double>(points.size()) / std::max(1, cv::countNonZero(hull));
+}
+
+/// Whether a piece is convex and completes the rest to a convex whole, as a flat side of a box does. A shadow close to its body lies around it.
+bool completes(const cv::Mat& lit, const cv::Mat& piece) {
+  cv::Mat whole;
+  cv::morphologyEx(lit | piece, whole, cv::MORPH_CLOSE, disc(7), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  return solidity(piece) > kConvexPiece && solidity(whole) > kConvex;
+}
+
 /// Takes out of `shadow` the shaded sides of the rest of `mask`: pieces that lie within its convex hull, since a shadow falls beside its
 /// body, and, where colour does not tell, pieces that its light goes over into.
 void keep_shaded_sides(const cv::Mat& frame, const cv::Mat& mask, const std::vector<Piece>& pieces, cv::Mat& shadow) {
@@ -139,7 +157,7 @@ void keep_shaded_sides(const cv::Mat& frame, const cv::Mat& mask, const std::vec
   cv::fillConvexPoly(hull, corners, cv::Scalar(255));
   for (const Piece& piece : pieces) {
     const bool side = piece.area < kSide * static_cast<double>(points.size()) && cv::countNonZero(piece.mask & hull) >= kWithin * piece.area;
-    if (side || (piece.sign == ShadowSign::light && goes_over(frame, lit, piece.mask))) shadow.setTo(0, piece.mask);
+    if (side || (piece.sign != ShadowSign::texture && completes(lit, piece.mask)) || (piece.sign == ShadowSign::light && goes_over(frame, lit, piece.mask))) shadow.setTo(0, piece.mask);
   }
 }
 
