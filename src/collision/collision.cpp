@@ -11,6 +11,7 @@
 
 #include "collision/describe.h"
 #include "collision/doubts/common_error.h"
+#include "collision/doubts/focal_doubt.h"
 #include "collision/remarks.h"
 #include "collision/shot_problem.h"
 #include "collision/sighted.h"
@@ -120,6 +121,12 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
   return evidence;
 }
 
+std::vector<const Solution*> solutions_of(const std::vector<SolvedImpact>& impacts) {
+  std::vector<const Solution*> solutions;
+  for (const SolvedImpact& impact : impacts) solutions.push_back(&impact.solution);
+  return solutions;
+}
+
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
   Summary& summary = result.summary;
   if (shot.bodies.size() != 2) throw InputError(shot.name, "bodies", std::to_string(shot.bodies.size()), "two");
@@ -129,7 +136,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   check_drag(shot, options, solids);
   Evidence evidence = observe(shot, context, summary);
   Tracks& tracks = evidence.tracks;
-  warn_of_footage(evidence.camera, evidence.footage, context);
+  warn_of_footage(evidence.footage, context);
   summary.counts = {{"points", tracks.points.size()}, {"flights", tracks.spans.size()}, {"meetings", tracks.meetings.size()}};
   result.camera = evidence.camera.camera;
   result.fps = evidence.fps;
@@ -145,6 +152,16 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
     impacts = solve_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
     share_gravity(impacts);
     share_floor(impacts);
+    const double longer = likeliest_focal_length(solutions_of(impacts));
+    if (longer != 1.0) {
+      evidence.camera.camera.fx *= longer;
+      evidence.camera.camera.fy *= longer;
+      result.camera = evidence.camera.camera;
+      impacts = solve_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
+      share_gravity(impacts);
+      share_floor(impacts);
+    }
+    warn_of_camera(evidence.camera, longer != 1.0, context);
   }
   {
     const Stage stage(context, summary, "orientations");

@@ -111,9 +111,14 @@ void doubt_labels(const Shot& shot, const Tracks& tracks, const SolvedImpact& im
 
 }  // namespace
 
-void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context) {
-  if (camera.assumed)
-    context.warn(fmt::format("the camera's intrinsics are assumed: focal length {:.0f} px; distances scale with it, and intervals are wider for it", camera.camera.fx));
+void warn_of_camera(const ShotCamera& camera, bool told, Context& context) {
+  if (!camera.assumed) return;
+  const double fov = degrees(2.0 * std::atan(0.5 * camera.camera.width / camera.camera.fx));
+  context.warn(fmt::format("the camera's intrinsics are {}: focal length {:.0f} px ({:.0f}° across); distances scale with it, and intervals are wider for it",
+                           told ? "not given, and estimated from the flights" : "assumed", camera.camera.fx, fov));
+}
+
+void warn_of_footage(const Footage& footage, Context& context) {
   if (footage.moving_camera) context.warn("the camera moves more than can be undone; film from a tripod");
 }
 

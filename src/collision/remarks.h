@@ -10,8 +10,11 @@
 
 namespace unseen::collision {
 
-/// Warns of a guessed camera and of one that moves.
-void warn_of_footage(const ShotCamera& camera, const Footage& footage, Context& context);
+/// Warns of a guessed camera; `told`: the flights told its focal length.
+void warn_of_camera(const ShotCamera& camera, bool told, Context& context);
+
+/// Warns of a camera that moves.
+void warn_of_footage(const Footage& footage, Context& context);
 
 /// Warns where much beside a body other than a ball was taken for its shadow, and nothing but its darkness says so.
 void warn_of_dimmed(const Shot& shot, const Footage& footage, const Tracks& tracks, Context& context);

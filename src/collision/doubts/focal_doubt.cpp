@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "collision/solve/unknowns.h"
 
@@ -29,22 +31,32 @@ void stretch(State& state, double factor) {
   for (Vec3* v : {&state.p[0], &state.p[1], &state.v[0], &state.v[1], &state.v_after[0], &state.v_after[1], &state.x, &state.impulse}) v->z() *= factor;
 }
 
-}  // namespace
-
-FocalError error_by_focal_length(const Solution& solution) {
-  if (!solution.problem.focal_assumed || solution.problem.planar) return {};
-  const double c = bounded_restitution(solution.problem, solution.fit.state), m = solution.fit.state.mass_ratio;
-  std::vector<Other> others = {{solution.fit.cost, c, m}};
-  for (const double step : {2.0 / kSteps, -2.0 / kSteps}) {
+/// Solutions with focal lengths from two kSigma shorter to two longer, in equal steps; the middle one is the solution itself. Nothing where none was found.
+std::vector<std::optional<Other>> with_other_lengths(const Solution& solution) {
+  std::vector<std::optional<Other>> others(2 * kSteps + 1);
+  others[kSteps] = {solution.fit.cost, bounded_restitution(solution.problem, solution.fit.state), solution.fit.state.mass_ratio};
+  for (const int way : {1, -1}) {
+    const double step = way * 2.0 / kSteps;
     Problem problem = solution.problem;
     Fit fit = solution.fit;
     for (int i = 1; i <= kSteps && fit.usable; ++i) {
       stretch(problem, std::exp(kSigma * step));
       stretch(fit.state, std::exp(kSigma * step));
       fit = settle(problem, fit.state);
-      if (fit.usable) others.push_back({fit.cost + 0.5 * step * step * i * i, bounded_restitution(problem, fit.state), fit.state.mass_ratio});
+      if (fit.usable) others[kSteps + way * i] = {fit.cost + 0.5 * step * step * i * i, bounded_restitution(problem, fit.state), fit.state.mass_ratio};
     }
   }
+  return others;
+}
+
+}  // namespace
+
+FocalError error_by_focal_length(const Solution& solution) {
+  if (!solution.problem.focal_assumed || solution.problem.planar) return {};
+  const double c = bounded_restitution(solution.problem, solution.fit.state), m = solution.fit.state.mass_ratio;
+  std::vector<Other> others;
+  for (const std::optional<Other>& other : with_other_lengths(solution))
+    if (other) others.push_back(*other);
   const auto less = [](const Other& a, const Other& b) { return a.unlikely < b.unlikely; };
   const double least = std::min_element(others.begin(), others.end(), less)->unlikely;
   double sum = 0.0;
@@ -56,6 +68,26 @@ FocalError error_by_focal_length(const Solution& solution) {
     squared.mass_ratio += weight * std::pow(other.mass_ratio - m, 2);
   }
   return {std::sqrt(squared.restitution / sum), std::sqrt(squared.mass_ratio / sum)};
+}
+
+double likeliest_focal_length(const std::vector<const Solution*>& solutions) {
+  constexpr double kTelling = 4.0;  // −log of a likelihood: less is no reason to leave what is usual
+  std::vector<double> unlikely(2 * kSteps + 1, 0.0);
+  for (const Solution* solution : solutions) {
+    if (!solution->problem.focal_assumed || solution->problem.planar) return 1.0;
+    const std::vector<std::optional<Other>> others = with_other_lengths(*solution);
+    for (std::size_t i = 0; i < others.size(); ++i) unlikely[i] += others[i] ? others[i]->unlikely : std::numeric_limits<double>::infinity();
+  }
+  const auto usual = [](std::size_t i) { return 0.5 * std::pow(2.0 / kSteps * (static_cast<double>(i) - kSteps), 2); };  // counted once, not with each impact
+  for (std::size_t i = 0; i < unlikely.size(); ++i) unlikely[i] -= (static_cast<double>(solutions.size()) - 1.0) * usual(i);
+  const auto best = static_cast<std::size_t>(std::min_element(unlikely.begin(), unlikely.end()) - unlikely.begin());
+  if (!(unlikely[best] < unlikely[kSteps] - kTelling)) return 1.0;
+  double at = static_cast<double>(best) - kSteps;
+  if (best > 0 && best + 1 < unlikely.size() && std::isfinite(unlikely[best - 1] + unlikely[best + 1])) {  // the lowest point of a parabola
+    const double bend = unlikely[best - 1] - 2.0 * unlikely[best] + unlikely[best + 1];
+    if (bend > 0.0) at += 0.5 * (unlikely[best - 1] - unlikely[best + 1]) / bend;
+  }
+  return std::exp(kSigma * 2.0 / kSteps * at);
 }
 
 }  // namespace unseen::collision

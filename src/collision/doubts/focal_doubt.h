@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <vector>
+
 #include "collision/solve/best_fit.h"
 
 namespace unseen::collision {
@@ -14,5 +16,9 @@ struct FocalError {
 /// What a focal length that is only assumed (`Problem::focal_assumed`) may have done to the result: how far it moves with much shorter and
 /// much longer ones, as far as the flights fit these as well.
 FocalError error_by_focal_length(const Solution& solution);
+
+/// How many times as long as assumed the focal length is that the impacts of a shot, and what is usual, make most likely; 1 where they hardly
+/// tell, or it is no guess. Bodies of known size that come nearer, or fall under a tilted camera, tell it.
+double likeliest_focal_length(const std::vector<const Solution*>& solutions);
 
 }  // namespace unseen::collision

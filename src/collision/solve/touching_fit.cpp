@@ -43,7 +43,7 @@ TouchingFit::TouchingFit(const Problem& problem, const State& base, const Linear
 TouchingFit::Result TouchingFit::operator()(const Touching& touching, const Turn& turn_a, const Turn& turn_b) const {
   constexpr int kRounds = 3;
   constexpr double kFriction = 0.4, kLateness = 0.1;  // |J_t| over J_n that is still usual; s
-  const double inverse_sigma = 3.0 / base_.mass_ratio;
+  const double inverse_sigma = (problem_.mass_ratio ? 1e-6 : 3.0) / base_.mass_ratio;
   Vec3 impulse = base_.impulse;
   double inverse = 1.0 / base_.mass_ratio;
   const Mat3 across = Mat3::Identity() - touching.normal * touching.normal.transpose();
@@ -82,7 +82,7 @@ TouchingFit::Result TouchingFit::operator()(const Touching& touching, const Turn
     all.right(kInverse) += (1.0 / base_.mass_ratio - inverse) / (inverse_sigma * inverse_sigma);
     z = all.normal.ldlt().solve(all.right);
     impulse = z.segment<3>(kJ);
-    inverse = std::clamp(inverse + z[kInverse], 0.2 / base_.mass_ratio, 5.0 / base_.mass_ratio);
+    if (!problem_.mass_ratio) inverse = std::clamp(inverse + z[kInverse], 0.2 / base_.mass_ratio, 5.0 / base_.mass_ratio);
   }
   Result result;
   State& s = result.state = base_;
