@@ -149,18 +149,19 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   std::vector<SolvedImpact> impacts;
   {
     const Stage stage(context, summary, "positions");
-    impacts = solve_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
-    share_gravity(impacts);
-    share_floor(impacts);
-    const double longer = likeliest_focal_length(solutions_of(impacts));
-    if (longer != 1.0) {
-      evidence.camera.camera.fx *= longer;
-      evidence.camera.camera.fy *= longer;
-      result.camera = evidence.camera.camera;
+    constexpr int kRounds = 8;
+    double longer = 1.0;  // times as long as assumed, the focal length that the flights tell
+    for (int round = 0; round < kRounds; ++round) {
       impacts = solve_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
       share_gravity(impacts);
       share_floor(impacts);
+      const double more = round + 1 < kRounds ? likeliest_focal_length(solutions_of(impacts), longer) : 1.0;
+      if (more == 1.0) break;
+      longer *= more;
+      evidence.camera.camera.fx *= more;
+      evidence.camera.camera.fy *= more;
     }
+    result.camera = evidence.camera.camera;
     warn_of_camera(evidence.camera, longer != 1.0, context);
   }
   {

@@ -9,6 +9,7 @@
 #include "collision/filmed_bounce.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
+#include "unseen/core/random.h"
 
 namespace unseen::collision {
 namespace {
@@ -53,6 +54,52 @@ TEST(AssumedFocalLength, IsCountedWhereABallComesNearer) {
     }
   EXPECT_GE(guessed, runs - 1);
   EXPECT_LT(believed, guessed);
+}
+
+/// Bounces below a camera that looks down by 30°, filmed through another lens than the usual one.
+TEST(AssumedFocalLength, IsReadFromBouncesBelowTheCamera) {
+  const double pitch = radians(30.0), c = 0.7, radius = 0.06, fps = 60;
+  for (const double focal : {1500.0, 600.0}) {
+    Shot shot;
+    shot.name = "below";
+    shot.fps = fps;
+    shot.camera.camera = {831, 831, 479.5, 269.5, 960, 540};
+    shot.camera.assumed = true;
+    Body ball, floor;
+    ball.name = "ball";
+    ball.radius = radius;
+    floor.name = "floor";
+    floor.shape = Shape::fixed;
+    shot.bodies = {ball, floor};
+    const Camera lens = {focal, focal, 479.5, 269.5, 960, 540};
+    const Mat3 turn = Eigen::AngleAxisd(pitch, Vec3::UnitX()).toRotationMatrix();  // from level, y down
+    Random random(5);
+    double height = 0.7, up = 0;
+    for (int frame = 0; frame < 80; ++frame) {
+      const Vec3 level(-0.25 + 0.4 * frame / fps, -height, 0.3 - 0.5 * frame / fps);
+      const Vec3 p = turn * level + Vec3(0, 0.25, focal / 831 * 1.8);
+      Sighting s;
+      s.frame = frame;
+      s.pixel = lens.project(p) + 0.2 * Vec2(random.normal(), random.normal());
+      s.radius = focal * radius / p.z() + 0.2 * random.normal();
+      shot.observations.push_back(s);
+      double left = 1 / fps;
+      while (true) {  // to the next bounce, or the next frame
+        const double falls = (up + std::sqrt(up * up + 2 * 9.81 * height)) / 9.81;
+        if (falls > left) break;
+        up = c * std::sqrt(up * up + 2 * 9.81 * height), height = 0, left -= falls;
+      }
+      height += up * left - 0.5 * 9.81 * left * left;
+      up -= 9.81 * left;
+    }
+    const Reconstruction r = solve(shot);
+    EXPECT_NEAR(r.camera.fx, focal, 0.1 * focal);
+    EXPECT_TRUE(says(r, "estimated from the flights"));
+    ASSERT_TRUE(r.restitution);
+    EXPECT_NEAR(r.restitution->value, c, 0.015);
+    shot.camera.assumed = false;
+    EXPECT_EQ(solve(shot).camera.fx, 831);
+  }
 }
 
 TEST(AssumedFocalLength, HardlyMattersWhereBodiesFlyAcross) {

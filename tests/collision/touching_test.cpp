@@ -10,6 +10,7 @@
 #include "collision/solve/touching.h"
 #include "collision/solve/touching_fit.h"
 #include "collision/tracks/flight_search.h"
+#include "collision/two_balls.h"
 #include "unseen/collision/collision.h"
 #include "unseen/collision/synth.h"
 #include "unseen/core/random.h"
@@ -154,6 +155,60 @@ TEST(Reconstruct, BouncesOnOneFloorAgree) {
   ASSERT_TRUE(r.restitution);
   ASSERT_GE(r.impacts.size(), 2u);
   EXPECT_NEAR(r.restitution->value, *synth.truth.restitution, 0.03);
+}
+
+/// A box that lands on one end of an edge 3° off level, pushed through its centre: from the edge's middle the impulse would turn it.
+TEST(Reconstruct, ABoxOnOneEndOfAnEdgeIsNotTurned) {
+  const double c = 0.5, fps = 120, impact = 45.4 / fps, tilt = radians(3.0);
+  Shot shot;
+  shot.name = "edge";
+  shot.fps = fps;
+  shot.camera.camera = {831, 831, 479.5, 269.5, 960, 540};
+  Body floor;
+  floor.name = "floor";
+  floor.shape = Shape::fixed;
+  shot.bodies = {box({0.2, 0.14, 0.08}), floor};
+  const Solid solid = solid_of(shot.bodies[0], "edge");
+  const Vec3 down = Vec3::UnitY(), side = Vec3(1, 0, 0.5).normalized(), corner(0.1, 0.07, 0.04);
+  // The edge along the box's z nearly level, its end `corner` lowest.
+  const Vec3 along = std::cos(tilt) * side + std::sin(tilt) * down, across = (corner - 0.04 * Vec3::UnitZ()).normalized();
+  Mat3 from, to;
+  from << Vec3::UnitZ(), across, Vec3::UnitZ().cross(across);
+  const Vec3 below = (down - along * along.dot(down)).normalized();
+  to << along, below, along.cross(below);
+  const Quat q(Mat3(to * from.transpose()));
+  const Vec3 arm = q * corner, p(0, 0.1, 2.3), omega(1.0, -2.0, 1.5), before = 3.8 * down + 1.2 * (arm - down * down.dot(arm)).normalized();
+  const double onto = (before + omega.cross(arm)).dot(down);
+  const Vec3 after = before - (1 + c) * onto / arm.dot(down) * arm;
+  const Quat principal = q * solid.file_to_principal.conjugate();
+  const Vec3 h = principal * solid.mass.inertia.cwiseProduct(principal.conjugate() * omega);
+  Random random(3);
+  for (int frame = 5; frame < 80; ++frame) {
+    const double t = frame / fps - impact;
+    Sighting s;
+    s.body = 0;
+    s.frame = frame;
+    s.pixel = shot.camera.camera.project(p + t * (t < 0 ? before : after) + 0.5 * 9.81 * t * t * down) + 0.15 * Vec2(random.normal(), random.normal());
+    shot.observations.push_back(s);
+    if (frame % 4 == 0) shot.orientations.push_back({0, frame / fps, turned<double>(principal, h, solid.mass.inertia, t) * solid.file_to_principal});
+  }
+  Context context;
+  const Reconstruction r = reconstruct(shot, {}, context);
+  EXPECT_TRUE(r.fits);
+  ASSERT_TRUE(r.restitution);
+  EXPECT_NEAR(r.restitution->value, c, 0.04);
+}
+
+TEST(Reconstruct, AGivenMassRatioStaysAsGiven) {
+  Shot shot = test::two_balls({.late = 0.4, .after = 28, .from = 4, .fps = 84, .noise = 1.0});
+  shot.bodies[0].mass = 0.2, shot.bodies[1].mass = 0.2 * test::kMassRatio;
+  Options options;
+  options.fix_mass_ratio = true;
+  Context context;
+  const Reconstruction r = reconstruct(shot, options, context);
+  ASSERT_TRUE(r.mass_ratio && r.restitution);
+  EXPECT_NEAR(r.mass_ratio->value, test::kMassRatio, 1e-9);
+  EXPECT_TRUE(r.restitution->low <= test::kRestitution && test::kRestitution <= r.restitution->high);
 }
 
 }  // namespace
