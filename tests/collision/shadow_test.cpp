@@ -177,6 +177,41 @@ TEST(Shadow, ABallKeepsItsShadedSideOfTheFloorsColor) {
 }
 
 /// The shadow on the floor never bounces, and is seen in every frame as one long flight.
+/// Two sides of a box that tumbles: one red, one of the wall's colour in less light; and the shadow that it casts on a wall close behind.
+TEST(Shadow, ABoxKeepsItsSideOfTheWallsColor) {
+  const cv::Mat background = plain(cv::Scalar(132, 138, 142));
+  const auto draw = [](cv::Mat& frame, int k, double from, double to, const cv::Scalar& color) {
+    const double turn = 0.3 + 0.05 * k;
+    const Vec2 e1(std::cos(turn), std::sin(turn)), e2(-e1.y(), e1.x()), c = bouncing(k) - Vec2(0, 30);
+    std::vector<cv::Point> corners;
+    for (const auto& [u, v] : {std::pair(from, -18.0), {to, -18.0}, {to, 18.0}, {from, 18.0}}) {
+      const Vec2 p = c + u * e1 + v * e2;
+      corners.emplace_back(cv::Point(cvRound(p.x()), cvRound(p.y())));
+    }
+    cv::fillConvexPoly(frame, corners, color, cv::LINE_AA);
+  };
+  for (const bool shadow : {false, true}) {
+    const Footage footage = film("graybox", [&](int k) {
+      cv::Mat frame = background.clone();
+      if (shadow) {
+        cv::Mat beside = frame.clone();
+        draw(beside, k, -24.0, 26.0, cv::Scalar(100, 105, 108));
+        const cv::Mat move = (cv::Mat_<double>(2, 3) << 1, 0, 4, 0, 1, 6);
+        cv::warpAffine(beside, frame, move, frame.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+      }
+      draw(frame, k, -24.0, 0.0, cv::Scalar(60, 60, 190));
+      draw(frame, k, 0.0, 26.0, shadow ? cv::Scalar(70, 160, 60) : cv::Scalar(100, 105, 108));
+      return frame;
+    });
+    int whole = 0;
+    for (int k = 5; k < 35; ++k) {
+      ASSERT_FALSE(footage.regions[k].empty()) << k;
+      whole += std::abs(footage.regions[k][0].area / (50.0 * 36.0) - 1.0) < 0.15;
+    }
+    EXPECT_GE(whole, 27) << (shadow ? "with a shadow beside it" : "");
+  }
+}
+
 TEST(Shadow, AFlatShadowIsFollowedLessThanItsBall) {
   Candidates candidates(60);
   for (int k = 0; k < 60; ++k) {

@@ -141,6 +141,24 @@ struct FrictionTerm : Base {
 };
 
 /// Gravity-free shots: both bodies move in one plane parallel to the image.
+/// Friction slows the slide of one ball on another, at most to rest. Balls whose turning nobody saw may spin a little before.
+struct SlideTerm : Base {
+  static constexpr int kResiduals = 3;
+  template <class T>
+  void of_state(const StateT<T>& s, T* r) const {
+    constexpr double kSpin = 20.0;  // rad/s
+    const Vec3T<T> n = contact_normal<T>(reference, s);
+    const auto slide = [&](bool after) {
+      const Vec3T<T> v = contact_velocity<T>(problem, s, 0, after) - contact_velocity<T>(problem, s, 1, after);
+      return Vec3T<T>(v - n * v.dot(n));
+    };
+    const Vec3T<T> before = slide(false), after = slide(true);
+    const T share = after.dot(before) / (before.squaredNorm() + 1e-12), left = value_of(share) < 0.0 ? T(0.0) : value_of(share) > 1.0 ? T(1.0) : share;
+    const Vec3T<T> off = after - before * left;
+    for (int i = 0; i < 3; ++i) r[i] = off[i] / (kSpin * (problem.solids[0].radius + problem.solids[1].radius));
+  }
+};
+
 struct PlanarTerm : Base {
   static constexpr int kResiduals = 5;
   template <class T>

@@ -159,6 +159,7 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
   if (terms.energy) adder.add("energy", EnergyTerm{base});
   if (terms.restitution) adder.add("restitution", RestitutionTerm{base});
   if (touch && reference.law) adder.add("friction", FrictionTerm{base});
+  if (touch && reference.law && !problem.fixed && problem.solids[0].is_sphere() && problem.solids[1].is_sphere()) adder.add("slide", SlideTerm{base});
   if (problem.planar) adder.add("planar", PlanarTerm{base});
   if (touch)
     adder.add("touch", TouchTerm{base, *touch, touch_sigma(problem)});

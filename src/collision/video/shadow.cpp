@@ -21,7 +21,8 @@ constexpr double kWeakGray = 0.1;              // of a pixel's brightness off th
 constexpr int kBright = 200;                   // grey levels or brighter: there sensors begin to clip
 constexpr double kSide = 0.5;                  // of the rest: more is no side of it
 constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
-constexpr double kConvex = 0.955, kConvexPiece = 0.88;  // of the hull: body with a flat side in its shade; the side
+constexpr double kConvex = 0.955, kConvexPiece = 0.88;  // of the hull: body with a flat side in its shade; the side, which is
+constexpr double kLeastSide = 0.2;             // of the rest, at least: less is a shadow along a side
 constexpr double kWhole = 0.85;                 // share of a part that makes it a shadow
 constexpr double kRound = 0.88;                // share of its bounding circle: a part like that is a ball with its shaded side, if
 constexpr double kLitSide = 0.35;              // of it is no shadow
@@ -139,8 +140,9 @@ double solidity(const cv::Mat& mask) {
 
 /// Whether a piece is convex and completes the rest to a convex whole, as a flat side of a box does. A shadow close to its body lies around it.
 bool completes(const cv::Mat& lit, const cv::Mat& piece) {
+  if (cv::countNonZero(piece) < kLeastSide * cv::countNonZero(lit)) return false;
   cv::Mat whole;
-  cv::morphologyEx(lit | piece, whole, cv::MORPH_CLOSE, disc(7), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::morphologyEx(lit | piece, whole, cv::MORPH_CLOSE, disc(7));
   return solidity(piece) > kConvexPiece && solidity(whole) > kConvex;
 }
 
