@@ -75,7 +75,9 @@ std::string flights_of(const Shot& shot, const Tracks& tracks, int body) {
 
 /// Why no impact was found.
 std::string nothing_found(const Shot& shot, const Tracks& tracks) {
-  if (tracks.spans.empty()) return "nothing that flies freely was found";
+  if (tracks.spans.empty())
+    return std::string("nothing that flies freely was found") +
+           (shot.video.empty() || shot.roi ? "" : "; if other things move in the picture, a \"roi\" around the flights leaves them out");
   for (int body = 0; body < 2; ++body) {
     const auto of_it = [body](const auto& seen) { return seen.body == body; };
     if (shot.bodies[body].shape != Shape::fixed && shot.video.empty() && std::none_of(shot.observations.begin(), shot.observations.end(), of_it) &&

@@ -178,7 +178,7 @@ std::filesystem::path named_file(const JsonField& json, const std::string& key, 
   if (name.empty() || name.find('\0') != std::string::npos) json[key].fail("the name of a file");
   std::error_code error;
   const std::filesystem::path path = folder / name;
-  if (!std::filesystem::exists(path, error)) json[key].fail(fmt::format("a file in {}", folder.empty() ? "." : folder.string()));
+  if (!std::filesystem::exists(path, error)) json[key].fail(folder.empty() ? "a file beside this one" : fmt::format("a file in {}", folder.string()));
   return path;
 }
 
