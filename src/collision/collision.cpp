@@ -100,33 +100,69 @@ struct Evidence {
   double fps = 0;
 };
 
+/// Follows what moves, as the evidence's camera sees it.
+void follow(const Shot& shot, Evidence& evidence, Context& context) {
+  if (!shot.video.empty()) {
+    evidence.tracks = find_tracks(shot, evidence.camera, evidence.footage, context);
+    return;
+  }
+  std::vector<Sighting> sightings = shot.observations;
+  if (shot.frames) std::erase_if(sightings, [&](const Sighting& s) { return s.frame < (*shot.frames)[0] || s.frame > (*shot.frames)[1]; });
+  evidence.tracks = find_tracks(shot, evidence.camera, sightings, evidence.fps, context);
+}
+
 Evidence observe(const Shot& shot, Context& context, Summary& summary) {
   Evidence evidence;
   if (shot.video.empty()) {
-    const Stage stage(context, summary, "tracks");
     if (!shot.fps) throw InputError(shot.name, "fps", "nothing", "the frame rate of the observations");
     evidence.fps = *shot.fps;
-    evidence.camera = complete_camera(shot, 0, 0);
-    std::vector<Sighting> sightings = shot.observations;
-    if (shot.frames) std::erase_if(sightings, [&](const Sighting& s) { return s.frame < (*shot.frames)[0] || s.frame > (*shot.frames)[1]; });
-    evidence.tracks = find_tracks(shot, evidence.camera, sightings, evidence.fps, context);
-    return evidence;
-  }
-  {
+  } else {
     const Stage stage(context, summary, "regions");
     evidence.footage = find_regions(shot, context);
+    evidence.fps = evidence.footage.fps;
   }
   const Stage stage(context, summary, "tracks");
-  evidence.fps = evidence.footage.fps;
   evidence.camera = complete_camera(shot, evidence.footage.width, evidence.footage.height);
-  evidence.tracks = find_tracks(shot, evidence.camera, evidence.footage, context);
+  follow(shot, evidence, context);
   return evidence;
 }
 
-std::vector<const Solution*> solutions_of(const std::vector<SolvedImpact>& impacts) {
-  std::vector<const Solution*> solutions;
-  for (const SolvedImpact& impact : impacts) solutions.push_back(&impact.solution);
-  return solutions;
+/// All impacts by the bodies' positions.
+std::vector<SolvedImpact> solve_all_positions(const Shot& shot, const Options& options, const std::array<Solid, 2>& solids, Evidence& evidence, Context& context) {
+  std::vector<SolvedImpact> impacts = solve_positions(shot, options, evidence.camera, solids, evidence.tracks, evidence.fps, context);
+  share_gravity(impacts);
+  share_floor(impacts);
+  return impacts;
+}
+
+/// The same through a camera of the focal length that these impacts tell, where it was a guess and they tell it. False where nothing changes.
+bool solve_with_told_camera(const Shot& shot, const Options& options, const std::array<Solid, 2>& solids, Evidence& evidence, std::vector<SolvedImpact>& impacts, Context& context) {
+  constexpr int kRounds = 6;  // at a wrong focal length the noise seems large and the vertical is off
+  Context quiet = context;    // the last of these solutions is the one to speak of
+  quiet.on_message = nullptr;
+  quiet.on_progress = nullptr;
+  Evidence told = evidence;
+  std::vector<SolvedImpact> others = impacts;
+  double longer = 1.0;
+  const auto solve_again = [&] {
+    others = solve_all_positions(shot, options, solids, told, quiet);
+    return others.size() >= impacts.size();
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    const double step = likelier_focal_length(others, longer, context);
+    if (step == 1.0) break;
+    longer *= step;
+    told.camera.camera.fx *= step;
+    told.camera.camera.fy *= step;
+    told.tracks = evidence.tracks;
+    if (!solve_again()) return false;
+  }
+  if (longer == 1.0) return false;
+  follow(shot, told, quiet);
+  if (!solve_again()) return false;
+  evidence = std::move(told);
+  impacts = std::move(others);
+  return true;
 }
 
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
@@ -151,20 +187,10 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   std::vector<SolvedImpact> impacts;
   {
     const Stage stage(context, summary, "positions");
-    constexpr int kRounds = 8;
-    double longer = 1.0;  // times as long as assumed, the focal length that the flights tell
-    for (int round = 0; round < kRounds; ++round) {
-      impacts = solve_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
-      share_gravity(impacts);
-      share_floor(impacts);
-      const double more = round + 1 < kRounds ? likeliest_focal_length(solutions_of(impacts), longer) : 1.0;
-      if (more == 1.0) break;
-      longer *= more;
-      evidence.camera.camera.fx *= more;
-      evidence.camera.camera.fy *= more;
-    }
+    impacts = solve_all_positions(shot, options, solids, evidence, context);
+    const bool told = solve_with_told_camera(shot, options, solids, evidence, impacts, context);
+    warn_of_camera(evidence.camera, told, context);
     result.camera = evidence.camera.camera;
-    warn_of_camera(evidence.camera, longer != 1.0, context);
   }
   {
     const Stage stage(context, summary, "orientations");

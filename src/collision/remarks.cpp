@@ -114,8 +114,9 @@ void doubt_labels(const Shot& shot, const Tracks& tracks, const SolvedImpact& im
 void warn_of_camera(const ShotCamera& camera, bool told, Context& context) {
   if (!camera.assumed) return;
   const double fov = degrees(2.0 * std::atan(0.5 * camera.camera.width / camera.camera.fx));
-  context.warn(fmt::format("the camera's intrinsics are {}: focal length {:.0f} px ({:.0f}° across); distances scale with it, and intervals are wider for it",
-                           told ? "not given, and estimated from the flights" : "assumed", camera.camera.fx, fov));
+  const std::string how = fmt::format("focal length {:.0f} px, {:.0f}° across", camera.camera.fx, fov);
+  context.warn(told ? fmt::format("the camera's focal length is estimated from the flights: {}", how)
+                    : fmt::format("the camera's intrinsics are assumed: {}; distances scale with it, and intervals are wider for it", how));
 }
 
 void warn_of_footage(const Footage& footage, Context& context) {

@@ -176,7 +176,6 @@ TEST(Shadow, ABallKeepsItsShadedSideOfTheFloorsColor) {
   EXPECT_GE(whole_balls(footage), 27);
 }
 
-/// The shadow on the floor never bounces, and is seen in every frame as one long flight.
 /// Two sides of a box that tumbles: one red, one of the wall's colour in less light; and the shadow that it casts on a wall close behind.
 TEST(Shadow, ABoxKeepsItsSideOfTheWallsColor) {
   const cv::Mat background = plain(cv::Scalar(132, 138, 142));
@@ -212,6 +211,7 @@ TEST(Shadow, ABoxKeepsItsSideOfTheWallsColor) {
   }
 }
 
+/// The shadow on the floor never bounces, and is seen in every frame as one long flight.
 TEST(Shadow, AFlatShadowIsFollowedLessThanItsBall) {
   Candidates candidates(60);
   for (int k = 0; k < 60; ++k) {

@@ -36,14 +36,16 @@ double unusual(double deviations) { return 0.5 * deviations * deviations; }
 
 double deviations_of_step(std::size_t i) { return 2.0 / kSteps * (static_cast<double>(i) - kSteps); }
 
-/// Solutions with focal lengths from two kSigma shorter to two longer, in equal steps; the middle one is the solution itself. Nothing where none was found.
+/// Solutions with focal lengths from two kSigma shorter to two longer, in equal steps about the solution's own. Nothing where none was found.
 std::vector<std::optional<Other>> with_other_lengths(const Solution& solution) {
   std::vector<std::optional<Other>> others(2 * kSteps + 1);
-  others[kSteps] = {solution.fit.cost, bounded_restitution(solution.problem, solution.fit.state), solution.fit.state.mass_ratio};
+  const Fit middle = settle(solution.problem, solution.fit.state);
+  if (!middle.usable) return others;
+  others[kSteps] = {middle.cost, bounded_restitution(solution.problem, middle.state), middle.state.mass_ratio};
   for (const int way : {1, -1}) {
     const double step = way * 2.0 / kSteps;
     Problem problem = solution.problem;
-    Fit fit = solution.fit;
+    Fit fit = middle;
     for (int i = 1; i <= kSteps && fit.usable; ++i) {
       stretch(problem, std::exp(kSigma * step));
       stretch(fit.state, std::exp(kSigma * step));
@@ -76,23 +78,34 @@ FocalError error_by_focal_length(const Solution& solution) {
   return {std::sqrt(squared.restitution / sum), std::sqrt(squared.mass_ratio / sum)};
 }
 
-double likeliest_focal_length(const std::vector<const Solution*>& solutions, double so_far) {
-  constexpr double kTelling = 4.0, kBetter = 0.5;  // −log of a likelihood: less is no reason to leave what is usual; to go on from there
-  std::vector<double> unlikely(2 * kSteps + 1);
-  for (std::size_t i = 0; i < unlikely.size(); ++i) unlikely[i] = unusual(deviations_of_step(i) + std::log(so_far) / kSigma);
-  for (const Solution* solution : solutions) {
-    if (!solution->problem.focal_assumed || solution->problem.planar) return 1.0;
-    const std::vector<std::optional<Other>> others = with_other_lengths(*solution);
-    for (std::size_t i = 0; i < others.size(); ++i) unlikely[i] += others[i] ? others[i]->unlikely : std::numeric_limits<double>::infinity();
+double likelier_focal_length(const std::vector<SolvedImpact>& impacts, double so_far, const Context& context) {
+  constexpr double kTelling = 10.0;  // −log of a likelihood: less is no reason to leave what is usual. Centroids of a flight are off together
+  constexpr double kStands = 0.01;   // of the logarithm
+  constexpr std::size_t kAll = 2 * kSteps + 1;
+  for (const SolvedImpact& impact : impacts) {
+    const Problem& p = impact.solution.problem;
+    const bool balls = p.solids[0].is_sphere() && (p.fixed || p.solids[1].is_sphere());
+    if (!p.focal_assumed || p.planar || (p.filmed && !balls)) return 1.0;  // the centroids of boxes and meshes need their orientations first
+  }
+  std::vector<std::vector<std::optional<Other>>> others(impacts.size());
+  parallel_blocks(context, impacts.size(), 1, [&](std::size_t i, std::size_t) { others[i] = with_other_lengths(impacts[i].solution); });
+  std::vector<double> unlikely(kAll);
+  for (std::size_t k = 0; k < kAll; ++k) {
+    const double deviations = deviations_of_step(k) + std::log(so_far) / kSigma;
+    unlikely[k] = std::abs(deviations) < 2.0 + 0.5 / kSteps ? unusual(deviations) : std::numeric_limits<double>::infinity();
+  }
+  for (const auto& of_impact : others) {
+    if (std::any_of(of_impact.begin(), of_impact.end(), [](const auto& other) { return !other; })) continue;
+    for (std::size_t k = 0; k < kAll; ++k) unlikely[k] += of_impact[k]->unlikely;
   }
   const auto best = static_cast<std::size_t>(std::min_element(unlikely.begin(), unlikely.end()) - unlikely.begin());
-  double at = static_cast<double>(best) - kSteps, least = unlikely[best];
-  if (best > 0 && best + 1 < unlikely.size() && std::isfinite(unlikely[best - 1] + unlikely[best + 1])) {  // the lowest point of a parabola
-    const double slope = 0.5 * (unlikely[best + 1] - unlikely[best - 1]), bend = unlikely[best - 1] - 2.0 * unlikely[best] + unlikely[best + 1];
-    if (bend > 0.0) at -= slope / bend, least -= 0.5 * slope * slope / bend;
+  if (so_far == 1.0 && !(unlikely[best] < unlikely[kSteps] - kTelling)) return 1.0;
+  double step = deviations_of_step(best);
+  if (best > 0 && best + 1 < kAll && std::isfinite(unlikely[best - 1] + unlikely[best + 1])) {  // the lowest point of a parabola
+    const double bend = unlikely[best - 1] - 2.0 * unlikely[best] + unlikely[best + 1];
+    if (bend > 0.0) step -= 0.5 * (unlikely[best + 1] - unlikely[best - 1]) / bend * 2.0 / kSteps;
   }
-  if (!(least < unlikely[kSteps] - (so_far == 1.0 ? kTelling : kBetter))) return 1.0;
-  return std::exp(kSigma * 2.0 / kSteps * at);
+  return std::abs(kSigma * step) < kStands ? 1.0 : std::exp(kSigma * step);
 }
 
 }  // namespace unseen::collision

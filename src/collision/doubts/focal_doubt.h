@@ -4,7 +4,9 @@
 
 #include <vector>
 
+#include "collision/describe.h"
 #include "collision/solve/best_fit.h"
+#include "unseen/core/context.h"
 
 namespace unseen::collision {
 
@@ -17,9 +19,9 @@ struct FocalError {
 /// much longer ones, as far as the flights fit these as well.
 FocalError error_by_focal_length(const Solution& solution);
 
-/// How many times as long as that of the solutions the focal length is that the impacts of a shot, and what is usual, make most likely; 1 where
-/// they hardly tell, or it is no guess. Bodies of known size that come nearer, or fall under a tilted camera, tell it. `so_far`: how many times
-/// as long as the guess that of the solutions is.
-double likeliest_focal_length(const std::vector<const Solution*>& solutions, double so_far);
+/// How many times as long as theirs the focal length is that the impacts of a shot, and what is usual, make most likely; 1 where they hardly
+/// tell, or it is no guess. Balls of known size that come nearer, or fall below a tilted camera, tell it. `so_far`: how many times as long as the
+/// guess theirs is.
+double likelier_focal_length(const std::vector<SolvedImpact>& impacts, double so_far, const Context& context);
 
 }  // namespace unseen::collision

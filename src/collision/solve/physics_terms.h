@@ -140,8 +140,7 @@ struct FrictionTerm : Base {
   }
 };
 
-/// Gravity-free shots: both bodies move in one plane parallel to the image.
-/// Friction slows the slide of one ball on another, at most to rest. Balls whose turning nobody saw may spin a little before.
+/// Friction slows the slide of one ball on another, at most to rest. Weak, as balls whose turning nobody saw may spin before.
 struct SlideTerm : Base {
   static constexpr int kResiduals = 3;
   template <class T>
@@ -159,6 +158,7 @@ struct SlideTerm : Base {
   }
 };
 
+/// Gravity-free shots: both bodies move in one plane parallel to the image.
 struct PlanarTerm : Base {
   static constexpr int kResiduals = 5;
   template <class T>

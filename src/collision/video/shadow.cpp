@@ -22,7 +22,8 @@ constexpr int kBright = 200;                   // grey levels or brighter: there
 constexpr double kSide = 0.5;                  // of the rest: more is no side of it
 constexpr double kWithin = 0.5;                // share of a shadow inside the hull of what is left: it is a shaded side of the body
 constexpr double kConvex = 0.955, kConvexPiece = 0.88;  // of the hull: body with a flat side in its shade; the side, which is
-constexpr double kLeastSide = 0.2;             // of the rest, at least: less is a shadow along a side
+constexpr double kLeastSide = 0.2;             // of the rest, at least: less is a shadow along a side;
+constexpr double kMostSide = 1.5;              // and at most
 constexpr double kWhole = 0.85;                 // share of a part that makes it a shadow
 constexpr double kRound = 0.88;                // share of its bounding circle: a part like that is a ball with its shaded side, if
 constexpr double kLitSide = 0.35;              // of it is no shadow
@@ -128,52 +129,62 @@ std::vector<Piece> pieces_of(const cv::Mat& frame, const cv::Mat& background, cv
   return pieces;
 }
 
-/// Share of its convex hull that a mask fills, and its corners.
-double solidity(const cv::Mat& mask) {
+/// The convex hull of a mask that is not empty.
+cv::Mat hull_of(const cv::Mat& mask) {
   std::vector<cv::Point> points, corners;
   cv::findNonZero(mask, points);
   cv::convexHull(points, corners);
   cv::Mat hull = cv::Mat::zeros(mask.size(), CV_8U);
   cv::fillConvexPoly(hull, corners, cv::Scalar(255));
-  return static_cast<double>(points.size()) / std::max(1, cv::countNonZero(hull));
+  return hull;
 }
 
-/// Whether a piece is convex and completes the rest to a convex whole, as a flat side of a box does. A shadow close to its body lies around it.
+/// Share of its convex hull that a mask fills; 0 if it is empty.
+double solidity(const cv::Mat& mask) {
+  const int area = cv::countNonZero(mask);
+  return area == 0 ? 0.0 : static_cast<double>(area) / cv::countNonZero(hull_of(mask));
+}
+
+/// Share of its bounding circle that a mask fills; 0 if it is empty.
+double roundness(const cv::Mat& mask) {
+  std::vector<cv::Point> points, hull;
+  cv::Point2f center;
+  float radius = 0.0F;
+  cv::findNonZero(mask, points);
+  if (points.empty()) return 0.0;
+  cv::convexHull(points, hull);  // minEnclosingCircle takes minutes of all points of a large part
+  cv::minEnclosingCircle(hull, center, radius);
+  return static_cast<double>(points.size()) / (kPi * (radius + 0.5) * (radius + 0.5));
+}
+
+/// Whether a piece is convex and completes the rest to a convex whole, as a flat side of a box does. A shadow close to its body lies around it;
+/// what is beside a whole ball, or larger than the rest, is no side.
 bool completes(const cv::Mat& lit, const cv::Mat& piece) {
-  if (cv::countNonZero(piece) < kLeastSide * cv::countNonZero(lit)) return false;
+  const int area = cv::countNonZero(piece), rest = cv::countNonZero(lit);
+  if (area < kLeastSide * rest || area > kMostSide * rest || roundness(lit) > kRound) return false;
   cv::Mat whole;
   cv::morphologyEx(lit | piece, whole, cv::MORPH_CLOSE, disc(7));
   return solidity(piece) > kConvexPiece && solidity(whole) > kConvex;
 }
 
 /// Takes out of `shadow` the shaded sides of the rest of `mask`: pieces that lie within its convex hull, since a shadow falls beside its
-/// body, and, where colour does not tell, pieces that its light goes over into.
+/// body, flat sides, and, where colour does not tell, pieces that its light goes over into.
 void keep_shaded_sides(const cv::Mat& frame, const cv::Mat& mask, const std::vector<Piece>& pieces, cv::Mat& shadow) {
   cv::Mat lit = mask & ~shadow;
   cv::morphologyEx(lit, lit, cv::MORPH_OPEN, disc(3));
-  std::vector<cv::Point> points, corners;
-  cv::findNonZero(lit, points);
-  if (points.size() < 3) return;
-  cv::convexHull(points, corners);
-  cv::Mat hull = cv::Mat::zeros(mask.size(), CV_8U);
-  cv::fillConvexPoly(hull, corners, cv::Scalar(255));
+  const int area = cv::countNonZero(lit);
+  if (area < 3) return;
+  const cv::Mat hull = hull_of(lit);
   for (const Piece& piece : pieces) {
-    const bool side = piece.area < kSide * static_cast<double>(points.size()) && cv::countNonZero(piece.mask & hull) >= kWithin * piece.area;
-    if (side || (piece.sign != ShadowSign::texture && completes(lit, piece.mask)) || (piece.sign == ShadowSign::light && goes_over(frame, lit, piece.mask))) shadow.setTo(0, piece.mask);
+    const bool within = piece.area < kSide * area && cv::countNonZero(piece.mask & hull) >= kWithin * piece.area;
+    const bool flat_side = piece.sign != ShadowSign::texture && completes(lit, piece.mask);
+    if (within || flat_side || (piece.sign == ShadowSign::light && goes_over(frame, lit, piece.mask))) shadow.setTo(0, piece.mask);
   }
 }
 
 /// Whether a part is a disc of which enough is lit: with a shadow beside the body it would be none.
 bool is_lit_ball(const cv::Mat& mask, const cv::Mat& shadow) {
-  const int area = cv::countNonZero(mask);
-  if (cv::countNonZero(mask & ~shadow) < kLitSide * area) return false;
-  std::vector<cv::Point> points, hull;
-  cv::Point2f center;
-  float radius = 0.0F;
-  cv::findNonZero(mask, points);
-  cv::convexHull(points, hull);  // minEnclosingCircle takes minutes of all points of a large part
-  cv::minEnclosingCircle(hull, center, radius);
-  return area > kRound * kPi * (radius + 0.5) * (radius + 0.5);
+  return cv::countNonZero(mask & ~shadow) >= kLitSide * cv::countNonZero(mask) && roundness(mask) > kRound;
 }
 
 /// What tells most of the pieces.
