@@ -65,6 +65,7 @@ FocalError error_by_focal_length(const Solution& solution) {
   const std::vector<std::optional<Other>> all = with_other_lengths(solution);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i]) others.push_back({all[i]->unlikely + unusual(deviations_of_step(i)), all[i]->restitution, all[i]->mass_ratio});
+  if (others.empty()) return {};
   const auto less = [](const Other& a, const Other& b) { return a.unlikely < b.unlikely; };
   const double least = std::min_element(others.begin(), others.end(), less)->unlikely;
   double sum = 0.0;
