@@ -100,15 +100,12 @@ struct Evidence {
   double fps = 0;
 };
 
-/// Follows what moves, as the evidence's camera sees it.
-void follow(const Shot& shot, Evidence& evidence, Context& context) {
-  if (!shot.video.empty()) {
-    evidence.tracks = find_tracks(shot, evidence.camera, evidence.footage, context);
-    return;
-  }
+/// Follows what moves, as a camera sees it.
+Tracks follow(const Shot& shot, const Footage& footage, const ShotCamera& camera, double fps, Context& context) {
+  if (!shot.video.empty()) return find_tracks(shot, camera, footage, context);
   std::vector<Sighting> sightings = shot.observations;
   if (shot.frames) std::erase_if(sightings, [&](const Sighting& s) { return s.frame < (*shot.frames)[0] || s.frame > (*shot.frames)[1]; });
-  evidence.tracks = find_tracks(shot, evidence.camera, sightings, evidence.fps, context);
+  return find_tracks(shot, camera, sightings, fps, context);
 }
 
 Evidence observe(const Shot& shot, Context& context, Summary& summary) {
@@ -123,13 +120,14 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
   }
   const Stage stage(context, summary, "tracks");
   evidence.camera = complete_camera(shot, evidence.footage.width, evidence.footage.height);
-  follow(shot, evidence, context);
+  evidence.tracks = follow(shot, evidence.footage, evidence.camera, evidence.fps, context);
   return evidence;
 }
 
 /// All impacts by the bodies' positions.
-std::vector<SolvedImpact> solve_all_positions(const Shot& shot, const Options& options, const std::array<Solid, 2>& solids, Evidence& evidence, Context& context) {
-  std::vector<SolvedImpact> impacts = solve_positions(shot, options, evidence.camera, solids, evidence.tracks, evidence.fps, context);
+std::vector<SolvedImpact> solve_all_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids, Tracks& tracks,
+                                              double fps, Context& context) {
+  std::vector<SolvedImpact> impacts = solve_positions(shot, options, camera, solids, tracks, fps, context);
   share_gravity(impacts);
   share_floor(impacts);
   return impacts;
@@ -138,30 +136,30 @@ std::vector<SolvedImpact> solve_all_positions(const Shot& shot, const Options& o
 /// The same through a camera of the focal length that these impacts tell, where it was a guess and they tell it. False where nothing changes.
 bool solve_with_told_camera(const Shot& shot, const Options& options, const std::array<Solid, 2>& solids, Evidence& evidence, std::vector<SolvedImpact>& impacts, Context& context) {
   constexpr int kRounds = 6;  // at a wrong focal length the noise seems large and the vertical is off
-  Context quiet = context;    // the last of these solutions is the one to speak of
+  double step = likelier_focal_length(impacts, 1.0, context);
+  if (step == 1.0) return false;
+  Context quiet = context;  // the last of these solutions is the one to speak of
   quiet.on_message = nullptr;
   quiet.on_progress = nullptr;
-  Evidence told = evidence;
-  std::vector<SolvedImpact> others = impacts;
-  double longer = 1.0;
+  ShotCamera camera = evidence.camera;
+  Tracks tracks;
+  std::vector<SolvedImpact> told;
   const auto solve_again = [&] {
-    others = solve_all_positions(shot, options, solids, told, quiet);
-    return others.size() >= impacts.size();
+    told = solve_all_positions(shot, options, camera, solids, tracks, evidence.fps, quiet);
+    return told.size() >= impacts.size();
   };
-  for (int round = 0; round < kRounds; ++round) {
-    const double step = likelier_focal_length(others, longer, context);
-    if (step == 1.0) break;
-    longer *= step;
-    told.camera.camera.fx *= step;
-    told.camera.camera.fy *= step;
-    told.tracks = evidence.tracks;
+  for (int round = 0; round < kRounds && step != 1.0; ++round) {
+    camera.camera.fx *= step;
+    camera.camera.fy *= step;
+    tracks = evidence.tracks;
     if (!solve_again()) return false;
+    step = likelier_focal_length(told, camera.camera.fx / evidence.camera.camera.fx, context);
   }
-  if (longer == 1.0) return false;
-  follow(shot, told, quiet);
+  tracks = follow(shot, evidence.footage, camera, evidence.fps, quiet);
   if (!solve_again()) return false;
-  evidence = std::move(told);
-  impacts = std::move(others);
+  evidence.camera = camera;
+  evidence.tracks = std::move(tracks);
+  impacts = std::move(told);
   return true;
 }
 
@@ -187,7 +185,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
   std::vector<SolvedImpact> impacts;
   {
     const Stage stage(context, summary, "positions");
-    impacts = solve_all_positions(shot, options, solids, evidence, context);
+    impacts = solve_all_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
     const bool told = solve_with_told_camera(shot, options, solids, evidence, impacts, context);
     warn_of_camera(evidence.camera, told, context);
     result.camera = evidence.camera.camera;
