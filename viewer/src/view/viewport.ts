@@ -8,14 +8,12 @@ import { PlanesLayer } from '../layers/planes';
 import { PointsLayer } from '../layers/points';
 import type { Model, Selection } from '../model';
 import { addGestures } from './gestures';
+import { PacedDrawing } from './paced';
 import type { CameraRig } from './rig';
-import { kOnTop, kPoints, SharedUniforms } from './shared';
+import { SharedUniforms } from './shared';
 
 THREE.ColorManagement.enabled = false;
 
-const kBudget = 60; // ms for the points of one picture
-const kFewest = 100000; // points in it at least; a third of that while the view moves
-const kRest = 180; // ms without movement after which the other points follow
 const kManyPoints = 1000000; // from here on edges are not smoothed: it would cost too much in software
 const kHoverPoints = 120000;
 
@@ -35,15 +33,8 @@ export class Viewport {
   private readonly scene = new THREE.Scene();
   private readonly renderer: THREE.WebGLRenderer;
   private view!: View;
-  private pending = 0;
-  private more = 0;
-  private movingSince = -Infinity;
-  private rest = 0;
-  /** Share of the points that the picture holds. */
-  private shown = 0;
-  /** Points a millisecond; 0 before it is known. */
-  private speed = 0;
-  private readonly waiting: (() => void)[] = [];
+  private readonly pictures: PacedDrawing;
+  private readonly pointLayers: PointsLayer[];
   private listeners: (() => void)[] = [];
 
   constructor(readonly model: Model, readonly rig: CameraRig, readonly handlers: ViewportHandlers) {
@@ -52,6 +43,13 @@ export class Viewport {
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio || 1));
     this.scene.matrixWorldAutoUpdate = true;
+    this.pictures = new PacedDrawing(this.renderer, this.scene, {
+      points: () => this.pointLayers,
+      aim: () => (this.aim() ? this.view.camera : null),
+      drawn: () => {
+        for (const f of this.listeners) f();
+      },
+    });
     const context: LayerContext = { model, shared: this.shared, layers: this.layers, invalidate: () => this.invalidate() };
     // Points look up the planes that they lie on, and cameras their images: those come first.
     const order = ['image', 'floor', 'mesh', 'planes', 'lines', 'boxes', 'points', 'trajectory', 'skeleton', 'camera', 'graph'];
@@ -66,6 +64,7 @@ export class Viewport {
       this.scene.add(layer.object);
       if (!layer.bounds.isEmpty()) this.extent.union(layer.bounds);
     }
+    this.pointLayers = [...this.layers.values()].filter((l) => l instanceof PointsLayer);
     this.canvas.tabIndex = 0;
     rig.onChange(() => this.invalidate());
     addGestures(this.canvas, rig, {
@@ -94,22 +93,22 @@ export class Viewport {
   }
 
   invalidate() {
-    if (this.pending) return;
-    this.pending = requestAnimationFrame(() => {
-      this.pending = 0;
-      this.draw();
-    });
+    this.pictures.invalidate();
   }
 
   /** The view is being moved: points are thinned as far as the graphics are slow. */
   moving() {
-    this.movingSince = performance.now();
-    window.clearTimeout(this.rest);
-    this.rest = window.setTimeout(() => this.invalidate(), kRest + 10);
+    this.pictures.moving();
   }
 
-  private share(from: number, to: number, grow: boolean) {
-    for (const l of this.layers.values()) if (l instanceof PointsLayer) l.mesh.share(from, to, grow);
+  /** Draws the picture: all of it, or as many points as there is time for; the others follow. */
+  draw(all = false) {
+    this.pictures.draw(all);
+  }
+
+  /** When all points are in the picture. */
+  complete(): Promise<void> {
+    return this.pictures.complete();
   }
 
   /** Sets the camera for the picture as it is now. */
@@ -131,68 +130,6 @@ export class Viewport {
     this.shared.uOrtho.value = this.view.ortho ? 1 : 0;
     for (const layer of this.layers.values()) if (layer.visible) layer.frame(this.view);
     return true;
-  }
-
-  /** Draws the picture: all of it, or as many points as there is time for; the others follow. */
-  draw(all = false) {
-    cancelAnimationFrame(this.more);
-    if (!this.aim()) return;
-    const points = this.visiblePoints();
-    const moving = performance.now() - this.movingSince < kRest;
-    const most = Math.max(moving ? kFewest / 3 : kFewest, this.speed * kBudget);
-    this.shown = all || points <= most ? 1 : most / points;
-    this.share(0, this.shown, moving);
-    this.timed(points * this.shown, () => this.renderer.render(this.scene, this.view.camera));
-    for (const f of this.listeners) f();
-    if (this.shown < 1) {
-      if (!moving) this.more = requestAnimationFrame(() => this.drawMore());
-    } else this.finished();
-  }
-
-  /** Adds points to the picture that stands. */
-  private drawMore() {
-    const points = Math.max(1, this.visiblePoints());
-    const next = Math.min(1, this.shown + Math.max(kFewest, this.speed * kBudget) / points);
-    this.share(this.shown, next, false);
-    const { camera } = this.view;
-    camera.layers.set(kPoints);
-    if (next === 1) camera.layers.enable(kOnTop);
-    this.renderer.autoClear = false;
-    this.timed(points * (next - this.shown), () => this.renderer.render(this.scene, camera));
-    this.renderer.autoClear = true;
-    camera.layers.enableAll();
-    this.shown = next;
-    if (next < 1) this.more = requestAnimationFrame(() => this.drawMore());
-    else this.finished();
-  }
-
-  /** Learns how many points a millisecond the graphics draw. */
-  private timed(points: number, render: () => void) {
-    const start = performance.now();
-    render();
-    if (points < 50000) return;
-    const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
-    const speed = points / Math.max(0.5, performance.now() - start);
-    this.speed = this.speed === 0 ? speed : 0.5 * (this.speed + speed);
-  }
-
-  private finished() {
-    for (const done of this.waiting.splice(0)) done();
-  }
-
-  /** When all points are in the picture. */
-  complete(): Promise<void> {
-    return new Promise((done) => {
-      if (this.shown === 1 && !this.pending) done();
-      else this.waiting.push(done);
-    });
-  }
-
-  private visiblePoints(): number {
-    let n = 0;
-    for (const l of this.layers.values()) if (l instanceof PointsLayer && l.visible) n += l.count;
-    return n;
   }
 
   setBackground(color: string) {
@@ -269,7 +206,7 @@ export class Viewport {
   }
 
   set pointSize(size: number) {
-    for (const l of this.layers.values()) if (l instanceof PointsLayer) l.mesh.material.uniforms.uPointSize!.value = size;
+    for (const l of this.pointLayers) l.mesh.material.uniforms.uPointSize!.value = size;
     this.invalidate();
   }
 
