@@ -30,3 +30,10 @@ export async function open(browser, name, html, { width = 1280, height = 800, da
   await page.evaluate(() => window.unseen.ready);
   return { page, requests, errors, close: () => context.close() };
 }
+
+/** Waits until the picture stands. */
+export const settle = (page) => page.evaluate(async () => {
+  await new Promise((r) => requestAnimationFrame(() => requestAnimationFrame(r)));
+  await window.unseen.complete();
+});
+export const selection = (page) => page.evaluate(() => window.unseen.selection());
