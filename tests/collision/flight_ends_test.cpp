@@ -29,6 +29,9 @@ struct Mover {
   double area() const { return 0.25 * kPi * diameter * diameter; }
 };
 
+/// Of two of a colour each that hardly part again.
+const Mover kRedBall = {{465, 98}, {7.0, -2.4}, {-1.4, -2.0}, 42.0}, kBlueBall = {{510, 100}, {-5.7, -2.2}, {-0.2, -1.2}, 46.0};
+
 const Mover kLarge = {{600, 300}, {4.0, -3.0}, {-1.5, -3.0}, 100.0}, kSmall = {{668, 310}, {-5.0, -2.0}, {1.5, -1.0}, 46.0};
 
 Candidate outline(int frame, int region, const Vec2& place, double diameter, const Vec3& color, Random& random) {
@@ -57,6 +60,30 @@ Candidates merging(std::uint64_t seed) {
     }
   }
   return candidates;
+}
+
+// On its way the blue one meets the outline of both, and there the red one where that comes out again.
+TEST(FlightEnds, AnOutlineOfBothDoesNotLeadFromOneBodyToTheOther) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    Candidates candidates(kFrames);
+    for (int k = 0; k < kFrames; ++k) {
+      if (k >= kImpact && k < kImpact + 8) candidates[k] = {outline(k, 0, 0.5 * (kRedBall.at(k) + kBlueBall.at(k)), 60.0, {99, 66, 101}, random)};
+      else candidates[k] = {outline(k, 0, kBlueBall.at(k), kBlueBall.diameter, {57, 73, 140}, random), outline(k, 1, kRedBall.at(k), kRedBall.diameter, {147, 54, 53}, random)};
+    }
+    Context context;
+    const Tracks tracks = find_pair(pair_shot(0.055, 0.06), camera(), candidates, kFps, 0.5, context);
+    ASSERT_EQ(tracks.meetings.size(), 1u) << seed;
+    EXPECT_NEAR(tracks.meetings[0].time * kFps, kImpact, 0.5) << seed;
+    ASSERT_EQ(tracks.spans.size(), 4u) << seed;
+    for (const FlightSpan& span : tracks.spans) {
+      const Mover& mover = tracks.points[span.begin].region == 0 ? kBlueBall : kRedBall;
+      for (std::size_t i = span.begin; i < span.end; ++i) EXPECT_LT((tracks.points[i].pixel - mover.at(tracks.points[i].frame)).norm(), 2.0) << seed << ", frame " << tracks.points[i].frame;
+      for (const FlightSpan& other : tracks.spans) {
+        if (other.body == span.body) EXPECT_EQ(tracks.points[other.begin].region, tracks.points[span.begin].region) << seed;
+      }
+    }
+  }
 }
 
 TEST(FlightEnds, OutlinesOfBothBodiesAsOneAreOfNoFlight) {

@@ -8,7 +8,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kTimeStep = 1e-3;          // s, between looks at contacts
-constexpr double kTouching = 1e-8;      // m, of overlap that is rounding
+constexpr double kRounding = 1e-8;      // m, of overlap that is rounding
 constexpr double kLeastBounce = 0.5;    // m/s: a bounce below ends the shot, for the body comes to rest
 constexpr int kFloor = -1;
 
@@ -30,7 +30,7 @@ class Run {
         const double dt = std::max(-kTimeStep, frame / fps_ - time_);
         states_ = flown(dt);
         time_ = dt == -kTimeStep ? time_ - kTimeStep : frame / fps_;
-        if (nearest(states_).gap < -kTouching) return false;
+        if (nearest(states_).gap < -kRounding) return false;
       }
       record(frame, truth);
     }
@@ -76,7 +76,7 @@ class Run {
     const double dt = std::min(kTimeStep, until - time_);
     const std::vector<SynthState> next = flown(dt);
     const Meeting meeting = nearest(next);
-    if (meeting.gap >= -kTouching) {
+    if (meeting.gap >= -kRounding) {
       states_ = next;
       time_ = dt < kTimeStep ? until : time_ + dt;
       return true;

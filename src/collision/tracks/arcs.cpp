@@ -4,139 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
+#include "collision/tracks/grow_arc.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
 
 constexpr int kSteps[] = {4, 2, 8, 1};  // frames between the candidates of a seed
-constexpr double kGate = 3.5;           // σ
-constexpr double kAlike = 6.0;          // σ² between neighbours' looks
-constexpr int kMisses = 4;              // frames in a row
-constexpr double kFilled = 0.6;         // share of the seed's frames that must be on the curve
-constexpr std::size_t kFewestOfArc = 4;      // points
 constexpr double kLargestBend = 0.35;   // of the seed's length: more is no flight between neighbouring frames
 constexpr double kShared = 0.35;        // of its points that an arc may share with longer ones
 constexpr double kStep = 0.25;          // of the picture's span that something may move a frame
 
 constexpr double kWander = 0.025;       // diameters
-constexpr double kMuchLess = 0.6;       // of the noise: jitter that neighbours are held to
-constexpr double kRough = 0.1;          // of the noise, added to the jitter
-constexpr std::size_t kNeighbours = 8, kFewestNeighbours = 5;
-constexpr std::size_t kSmoothest = 14;  // points
 constexpr std::size_t kMostFollowed = 8;  // candidates a frame that the noise is taken from
 
 using Key = std::pair<int, int>;        // frame and index of a candidate
-
-bool can_fly(const Candidate& c) { return c.whole && !c.shadow; }
-
-/// Grows one arc from a seed.
-class Grower {
- public:
-  Grower(const Candidates& candidates, double noise, double jitter)
-      : candidates_(candidates), noise_(noise), jitter_(jitter < kMuchLess * noise ? std::hypot(jitter, kRough * noise) : 0.0) {}
-
-  std::optional<Arc> grow(int first, int step, const Candidate& a, const Candidate& b, const Candidate& c) {
-    CurveSums seed(a.u);
-    for (const Candidate* s : {&a, &b, &c}) seed.add(s->u, s->pixel);
-    Curve curve = seed.fit();
-    points_.clear();
-    sums_ = CurveSums(a.u);
-    for (int k = first; k <= first + 2 * step; ++k)
-      if (const Candidate* found = nearest(k, curve, b, 0.0)) add(*found);
-    if (static_cast<double>(points_.size()) < std::max(3.0, kFilled * (2 * step + 1))) return {};
-    extend(first + 2 * step + 1, 1);
-    extend(first - 1, -1);
-    if (points_.size() > kSmoothest) grow_again();
-    if (points_.size() < kFewestOfArc) return {};
-    Arc arc;
-    for (const auto& [frame, point] : points_) arc.points.push_back(point);
-    arc.curve = sums_.fit();
-    arc.noise = std::sqrt(arc.curve.squares / std::max(1.0, 2.0 * static_cast<double>(arc.points.size()) - 6.0));
-    return arc.noise < 2.0 * noise_ ? std::optional(arc) : std::nullopt;
-  }
-
- private:
-  void add(const Candidate& c) {
-    points_.emplace(c.frame, c);
-    sums_.add(c.u, c.pixel);
-  }
-
-  void extend(int k, int direction) {
-    for (int misses = 0; misses <= kMisses && k >= 0 && k < static_cast<int>(candidates_.size()); k += direction) {
-      if (candidates_[k].empty()) {
-        ++misses;
-        continue;
-      }
-      const Curve curve = sums_.fit();
-      const Candidate& last = direction > 0 ? points_.rbegin()->second : points_.begin()->second;
-      const Candidate* found = nearest(k, curve, last, curve.variance_at(candidates_[k].front().u));
-      if (found && !led_to(*found, curve, direction)) found = nullptr;
-      if (found) add(*found);
-      misses = found ? 0 : misses + 1;
-    }
-  }
-
-  /// Grows again from the smoothest stretch: the seed may have had the moment of a push, or of two bodies seen as one, in its middle.
-  void grow_again() {
-    const std::vector<std::pair<int, Candidate>> all(points_.begin(), points_.end());
-    const auto fit = [&](std::size_t begin) {
-      CurveSums sums(all[begin].second.u);
-      for (std::size_t i = begin; i < begin + kSmoothest; ++i) sums.add(all[i].second.u, all[i].second.pixel);
-      return sums;
-    };
-    std::size_t best = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t begin = 0; begin + kSmoothest <= all.size(); begin += 2) {
-      const double squares = fit(begin).fit().squares;
-      if (squares < least) least = squares, best = begin;
-    }
-    sums_ = fit(best);
-    points_ = {all.begin() + static_cast<std::ptrdiff_t>(best), all.begin() + static_cast<std::ptrdiff_t>(best + kSmoothest)};
-    extend(points_.rbegin()->first + 1, 1);
-    extend(points_.begin()->first - 1, -1);
-  }
-
-  /// Whether the points at the end that grows lead to `next`: where they do not, something pushed the body.
-  bool led_to(const Candidate& next, const Curve& curve, int direction) const {
-    if (jitter_ == 0.0 || points_.size() < kFewestNeighbours) return true;
-    CurveSums near(next.u);
-    const auto add_near = [&](auto begin, auto end) {
-      for (auto it = begin; it != end && near.count() < static_cast<int>(kNeighbours); ++it) near.add(it->second.u, it->second.pixel);
-    };
-    if (direction > 0) add_near(points_.rbegin(), points_.rend());
-    else add_near(points_.begin(), points_.end());
-    const Curve local = near.fit(curve.curvature, jitter_ * jitter_ / (noise_ * noise_ * curve.cofactor(2, 2)));
-    const double sigma = jitter_ * std::sqrt(1.0 + local.variance_at(next.u));
-    return (next.pixel - local.at(next.u)).norm() < kGate * sigma;
-  }
-
-  const Candidate* nearest(int k, const Curve& curve, const Candidate& like, double variance) const {
-    const Candidate* best = nullptr;
-    const double sigma = noise_ * std::sqrt(1.0 + std::min(variance, 8.0));
-    double least = kGate * kGate;
-    for (const Candidate& c : candidates_[k]) {
-      if (!can_fly(c)) continue;
-      const double off = (c.pixel - curve.at(c.u)).squaredNorm() / (2.0 * sigma * sigma), unlike = unlikeness(c, like);
-      if (unlike < kAlike && off + unlike < least + kAlike && off < kGate * kGate / 2.0 && (!best || off + unlike < least)) {
-        best = &c;
-        least = off + unlike;
-      }
-    }
-    return best;
-  }
-
-  const Candidates& candidates_;
-  double noise_, jitter_;  ///< px; no jitter = neighbours tell no more than the curve
-  std::map<int, Candidate> points_;
-  CurveSums sums_{0.0};
-};
 
 /// Diagonal of what the candidates span, px.
 double span_of(const Candidates& candidates) {
@@ -226,7 +113,7 @@ std::vector<Arc> find_arcs(const Candidates& candidates, double noise, double ji
   const double far = kStep * span_of(candidates);
   std::vector<Arc> arcs;
   std::map<Key, std::set<std::size_t>> member;  // arcs of eight points or more that a candidate belongs to
-  Grower grower(candidates, noise, jitter);
+  ArcGrower grower(candidates, noise, jitter);
   const auto together = [&](const Key& a, const Key& b, const Key& c) {
     const auto ia = member.find(a), ib = member.find(b), ic = member.find(c);
     if (ia == member.end() || ib == member.end() || ic == member.end()) return false;
