@@ -6,12 +6,15 @@
 
 #include "io/depth_frames.h"
 #include "io/depth_png.h"
+#include "io/depth_rounding.h"
 #include "io/readers.h"
 #include "io/text.h"
 #include "unseen/core/error.h"
 
 namespace unseen::io {
 namespace {
+
+constexpr std::size_t kFramesOfValues = 20;  // from which the sensor's rounding is read
 
 /// Gives a block a frame. While one is being used the next is decoded.
 class DepthSource final : public PointSource {
@@ -25,7 +28,11 @@ class DepthSource final : public PointSource {
     if (folder_.frames.size() == 1) info_.viewpoint = folder_.frames[0].T_world_camera.translation;
   }
 
-  SourceInfo info() const override { return info_; }
+  SourceInfo info() const override {
+    SourceInfo info = info_;
+    info.rounding = values_.rounding();
+    return info;
+  }
 
   void rewind() override {
     started_ = true;
@@ -48,6 +55,10 @@ class DepthSource final : public PointSource {
       unproject(image.depth, folder_.frames[frame].T_world_camera, block);
       if (block.positions.empty()) continue;
       points_ += block.size();
+      if (frame >= valued_ && frame < kFramesOfValues) {
+        values_.add(image.depth, low_, high_);
+        valued_ = frame + 1;
+      }
       return true;
     }
     if (points_ == 0)
@@ -136,6 +147,8 @@ class DepthSource final : public PointSource {
   std::size_t at_ = 0;  ///< the frame that is being decoded
   int width_ = 0, height_ = 0;  ///< of the first picture
   std::size_t points_ = 0;
+  DepthValues values_;
+  std::size_t valued_ = 0;  ///< frames that these are of, and that were passed by
   bool started_ = false;
   std::set<std::size_t> faults_;  ///< frames that were noted
   std::future<Decoded> ahead_;

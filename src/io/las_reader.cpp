@@ -14,6 +14,7 @@ namespace {
 
 constexpr bool kSwapLittleEndian = std::endian::native == std::endian::big;
 constexpr std::array<std::size_t, 11> kRecord = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+constexpr std::string_view kHasWaves = "\4\5\11\12";  ///< formats that other data may follow
 constexpr std::array<std::size_t, 11> kColor = {0, 0, 20, 28, 0, 28, 0, 30, 30, 0, 30};  ///< 0 = none
 
 class LasSource final : public PointSource {
@@ -80,7 +81,8 @@ class LasSource final : public PointSource {
     const std::string_view bytes = bytes_->view();
     std::uint64_t count = at<std::uint32_t>(107);
     constexpr std::size_t kHeader14 = 375;
-    if (minor >= 4 && at<std::uint16_t>(94) >= kHeader14 && bytes.size() >= kHeader14)
+    const bool long_header = minor >= 4 && at<std::uint16_t>(94) >= kHeader14 && bytes.size() >= kHeader14;
+    if (long_header)
       if (const auto count14 = at<std::uint64_t>(247); count14 > 0) count = count14;
     if (count == 0) fail("number of points", "0", "points");
     const std::size_t room = (bytes.size() - start_) / stride_;
@@ -88,6 +90,9 @@ class LasSource final : public PointSource {
       fail("number of points", count_of(room, "point"),
            "the " + std::to_string(count) + " that the header promises");
     count_ = count;
+    const bool points_only = minor < 3 || (long_header && at<std::uint32_t>(243) == 0 && kHasWaves.find(static_cast<char>(format_)) == std::string_view::npos);
+    if (count < room && points_only)
+      info_.notes.push_back("the header promises " + count_of(count, "point") + " where there is room for " + std::to_string(room) + ": the others are left out");
   }
 
   void find_columns() {

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <opencv2/imgcodecs.hpp>
 
+#include "io/depth_rounding.h"
 #include "io/samples.h"
+#include "unseen/core/random.h"
 
 namespace unseen::io {
 namespace {
@@ -107,6 +109,48 @@ TEST(Depth, NothingUsableIsAnError) {
   options = {};
   options.depth_step = 0;
   expect_error([&] { open_points(folder.path, options); }, {"depth_step"});
+}
+
+/// Rounding that is read from a picture of depths (m, evenly from 1 to 3) as a sensor tells them.
+template <class Tell>
+double rounding_read(const Tell& tell) {
+  constexpr int kPixels = 200000;
+  DepthImage image{kPixels, 1, {}};
+  for (int i = 0; i < kPixels; ++i) image.millimetres.push_back(static_cast<std::uint16_t>(std::lround(1e3 * tell(1.0 + 2.0 * i / kPixels))));
+  DepthValues values;
+  values.add(image, 0.5, 3.5);
+  return values.rounding();
+}
+
+TEST(Depth, RoundingOfTheSensorIsRead) {
+  Random random(1);
+  const auto disparity = [](double z) { return 315.0 / std::round(315.0 / z); };  // eighths of a pixel
+  constexpr double typical = 2.0;
+  EXPECT_NEAR(rounding_read(disparity), typical * typical / 315.0, 0.002);
+  EXPECT_NEAR(rounding_read([&](double z) { return random.uniform() < 0.03 ? z : disparity(z); }), typical * typical / 315.0, 0.002);  // pixels on edges
+  EXPECT_NEAR(rounding_read([](double z) { return std::round(100.0 * z) / 100.0; }), 0.01, 1e-9);
+  EXPECT_NEAR(rounding_read([](double z) { return z; }), 0.001, 1e-9);
+  EXPECT_NEAR(rounding_read([&](double z) { return z + 0.0015 * z * z * random.normal(); }), 0.001, 1e-9);
+  EXPECT_NEAR(rounding_read([](double z) { return z < 2.0 ? std::round(100.0 * z) / 100.0 : 4.0; }), 0.01, 1e-9);  // some are too far
+  EXPECT_EQ(rounding_read([](double z) { return z < 2.0 ? 1.4 : 2.7; }), 0.0);                        // walls that face the camera
+  EXPECT_EQ(rounding_read([](double z) { return z < 1.5 ? z : std::round(2.0 * z) / 2.0; }) < 0.002, true);  // some of them
+}
+
+TEST(Depth, RoundingIsKnownAfterAPass) {
+  const ScratchFolder folder;
+  write_file(folder / "camera-intrinsics.txt", "50 0 32\n0 50 24\n0 0 1\n");
+  cv::Mat depth(48, 64, CV_16U);
+  for (int v = 0; v < depth.rows; ++v)
+    for (int u = 0; u < depth.cols; ++u) depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(1000 + 20 * v);
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", depth, png);
+  write_frame(folder, "frame-1", kPose, std::string(png.begin(), png.end()));
+  const auto source = open_points(folder.path);
+  EXPECT_EQ(source->info().rounding, 0.0);
+  read_all(*source);
+  EXPECT_NEAR(source->info().rounding, 0.02, 1e-9);
+  read_all(*source);
+  EXPECT_NEAR(source->info().rounding, 0.02, 1e-9);
 }
 
 TEST(Image, DarkPixelsBecomePoints) {

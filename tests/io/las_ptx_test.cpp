@@ -46,6 +46,22 @@ TEST(Las, FaultsNameFileAndField) {
   expect_read_error("ASTM-E57 and more", "scan.e57", {"E57", "CloudCompare"});
 }
 
+TEST(Las, SaysThatTheHeaderPromisesLessThanThereIs) {
+  const ScratchFolder folder;
+  for (const int minor : {2, 4}) {
+    std::string s = las(0, minor);
+    write_file(folder / "all.las", s);
+    EXPECT_TRUE(open_points(folder / "all.las")->info().notes.empty());
+    s[107] = '\1';
+    if (minor == 4) s[247] = '\1';
+    write_file(folder / "some.las", s);
+    const auto source = open_points(folder / "some.las");
+    ASSERT_EQ(source->info().notes.size(), 1u) << minor;
+    EXPECT_EQ(source->info().notes[0], "the header promises 1 point where there is room for 2: the others are left out");
+    EXPECT_EQ(read_all(*source).size(), 1u);
+  }
+}
+
 TEST(Las, DegreesAreNoMetres) {
   const auto with = [](double xy_scale, double z_scale, double high_x) {
     std::string s = las(0, 2);

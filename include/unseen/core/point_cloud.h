@@ -32,6 +32,7 @@ struct SourceInfo {
   bool two_dimensional = false;  ///< points of a drawing; z = 0
   bool in_memory = false;        ///< reading again costs next to nothing
   std::optional<Vec3> viewpoint;
+  double rounding = 0;  ///< m, how far apart the values are that depths have; 0 = not known: it takes a first pass
   std::vector<std::string> notes;  ///< what a reader had to guess or leave out, one line each
 };
 
