@@ -67,7 +67,7 @@ void add_facts(SceneBuilder& scene, const Arrangement& a) {
   add_fact(scene, things, std::to_string(a.planes.size()));
   add_fact(scene, "orientation frames", std::to_string(a.frames.size()), "Sets of directions at exact angles to each other. What stands askew has a frame of its own");
   add_fact(scene, "directions", std::to_string(a.directions.size()), fmt::format("Exactly parallel {} share one", things));
-  add_fact(scene, "relations", std::to_string(a.relations.size()), "Exact angles between directions, equal spacings and lengths. Each holds to 0.01°");
+  add_fact(scene, "relations", std::to_string(a.relations.size()), "Exact angles between directions. Each holds to 0.01°");
   add_fact(scene, "related pairs of " + things, grouped(a.plane_relations), fmt::format("Pairs of {} that these relations hold between", things));
   add_fact(scene, "points", grouped(points));
   add_fact(scene, "points explained", points > 0 ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(assigned) / static_cast<double>(points)) : "–",
@@ -77,8 +77,8 @@ void add_facts(SceneBuilder& scene, const Arrangement& a) {
 
 std::string about(const Arrangement& a) {
   const std::string_view things = a.two_dimensional ? "lines" : "planes";
-  return fmt::format("The {} that the points lie on. Angles, spacings and lengths that agree within the noise of the points are made equal, exactly; what differs by more is "
-                     "left as it is. What is curved or smaller than a few times the scale has no {}.", things, things.substr(0, things.size() - 1));
+  return fmt::format("The {} that the points lie on. Angles that agree within the noise of the points are made exact; what differs by more is left as it is. Equal steps "
+                     "and lengths are listed, not enforced. What is smaller than a few times the scale has no {}.", things, things.substr(0, things.size() - 1));
 }
 
 /// The box that all but half a percent of the points on planes lie in, along each axis and at each end.

@@ -217,11 +217,10 @@ TEST(RefitModel, LargeSurfacesTellMore) {
 }
 
 /// A ground whose tilt is certain, and ten small tops that agree on another, which suits the frame: they outvote it.
-Model ground_and_tops(double ground_rms) {
+Model ground_and_tops(double ground_rms, double tilt = radians(0.8)) {
   Random random(4);
   Model m = one_frame();
-  const double e = radians(0.8);
-  m.surfaces.push_back(surface_of(0, 2, {std::sin(e), 0, std::cos(e)}, 0.0, 0.0, random));
+  m.surfaces.push_back(surface_of(0, 2, {std::sin(tilt), 0, std::cos(tilt)}, 0.0, 0.0, random));
   for (int i = 0; i < 10; ++i) m.surfaces.push_back(surface_of(0, 2, Vec3::UnitZ(), 0.0, 0.0, random));
   for (Surface& s : m.surfaces) {
     const bool ground = &s == &m.surfaces.front();
@@ -252,13 +251,20 @@ TEST(RefitHeld, ARoughSurfaceIsNotCarriedAwayEither) {
   EXPECT_LT(degrees(line_angle(m.normal(m.surfaces[0]), ground)), 1e-6);
 }
 
-// Its own fit is no better than what the turn costs, or the scale says that so much does not matter.
+// Its own fit is no better than what the turn costs, or it is turned by little and the scale says that so much does not matter.
 TEST(RefitHeld, WhatIsNotFlatStaysInItsFrame) {
-  Model rough = ground_and_tops(0.6), coarse = ground_and_tops(0.03);
+  Model rough = ground_and_tops(0.6), coarse = ground_and_tops(0.03, radians(0.4));
   refit_held(rough, 0.3, Space());
   refit_held(coarse, 6.0, Space());
   EXPECT_EQ(rough.surfaces[0].frame, 0);
   EXPECT_EQ(coarse.surfaces[0].frame, 0);
+}
+
+// A lane between facades: at a coarse scale too it keeps a crossfall that its own noise shows.
+TEST(RefitHeld, WhatIsPlainlyTurnedIsSetFreeAtAnyScale) {
+  Model m = ground_and_tops(0.03);
+  refit_held(m, 6.0, Space());
+  EXPECT_EQ(m.surfaces[0].frame, 1);
 }
 
 TEST(RefitHeld, SurfacesSetFreeShareTheirDirection) {

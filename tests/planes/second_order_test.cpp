@@ -3,14 +3,16 @@
 // Equal steps between parallel planes.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "planes/result/describe.h"
 #include "unseen/core/random.h"
 
 namespace unseen::planes {
 namespace {
 
-/// Parallel planes at these offsets (m), in any order; at a scale of 5 cm offsets count as equal within 1.25 cm.
-Arrangement parallel(const std::vector<double>& offsets) {
+/// Parallel planes at these offsets (m), in any order; at a scale of 5 cm, and this noise, offsets count as equal within 1.25 cm.
+Arrangement parallel(const std::vector<double>& offsets, double noise = 0.00625) {
   Arrangement a;
   a.scale = 0.05;
   a.directions.push_back({Vec3::UnitX(), 0});
@@ -18,6 +20,7 @@ Arrangement parallel(const std::vector<double>& offsets) {
     ArrangedPlane p;
     p.plane = {Vec3::UnitX(), offset};
     p.direction = p.frame = 0;
+    p.rms = noise;
     a.planes.push_back(p);
   }
   find_second_order(a);
@@ -48,6 +51,64 @@ TEST(EqualSteps, OfAStairWithSomethingBetweenAreOneRow) {
   const Arrangement a = parallel({0.0, 0.17, 0.34, 0.51, 0.57, 0.68, 0.85, 1.02});
   ASSERT_EQ(a.spacing.size(), 1u);
   EXPECT_EQ(a.spacing[0].planes, (std::vector<int>{0, 1, 2, 3, 5, 6, 7}));
+}
+
+// A stair whose steps differ by a centimetre, scanned with a noise of 3 mm, has no equal steps.
+TEST(EqualSteps, AreNoneThatTheNoiseTellsApart) {
+  const std::vector<double> offsets = {0.0, 0.175, 0.360, 0.525, 0.705, 0.875, 1.065, 1.240, 1.399};
+  EXPECT_TRUE(parallel(offsets, 0.003).spacing.empty());
+  EXPECT_EQ(parallel({0.0, 0.175, 0.351, 0.524, 0.700}, 0.003).spacing.size(), 1u);
+  EXPECT_EQ(parallel({0.0, 0.175, 0.350, 0.525}, 0.0).spacing.size(), 1u);  // of a model
+}
+
+TEST(EqualSteps, OfThreePlanesAreNoneAmongMany) {
+  Random random(2);
+  int found = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::vector<double> offsets;
+    for (int i = 0; i < 30; ++i) offsets.push_back(random.uniform(0.0, 4.0));
+    found += static_cast<int>(parallel(offsets, 0.004).spacing.size());
+  }
+  EXPECT_LT(found, 40);  // there are three or so each time
+}
+
+/// Level rectangles of these lengths and a width of 0.6 m, each turned by an angle of its own.
+Arrangement level(const std::vector<double>& lengths, Random& random) {
+  Arrangement a;
+  a.scale = 0.08;
+  a.directions.push_back({Vec3::UnitZ(), 0});
+  for (const double length : lengths) {
+    ArrangedPlane p;
+    p.plane = {Vec3::UnitZ(), 0.7 + 0.05 * static_cast<double>(a.planes.size())};
+    p.direction = p.frame = 0;
+    p.rms = 0.003;
+    const double turn = random.uniform(0.0, kPi);
+    const Vec3 u(std::cos(turn), std::sin(turn), 0), v(-std::sin(turn), std::cos(turn), 0), c(random.uniform(0, 9), random.uniform(0, 9), p.plane.offset);
+    p.polygon = {{c, c + length * u, c + length * u + 0.6 * v, c + 0.6 * v}};
+    a.planes.push_back(p);
+  }
+  find_second_order(a);
+  return a;
+}
+
+TEST(EqualLengths, AreThoseOfThePlanesHoweverTheyAreTurned) {
+  Random random(3);
+  const Arrangement a = level({1.4, 1.4, 1.405, 1.4, 1.395, 2.2, 0.9}, random);
+  ASSERT_EQ(a.equal_lengths.size(), 1u);
+  EXPECT_EQ(a.equal_lengths[0].planes, (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_NEAR(a.equal_lengths[0].length, 1.4, 1e-9);
+  EXPECT_NEAR(a.equal_lengths[0].rms, std::sqrt(2.0 / 5.0) * 0.005, 1e-9);
+}
+
+TEST(EqualLengths, AreNoneAmongManyByChance) {
+  Random random(4);
+  int found = 0;
+  for (int k = 0; k < 50; ++k) {
+    std::vector<double> lengths;
+    for (int i = 0; i < 30; ++i) lengths.push_back(random.uniform(0.7, 1.4));
+    found += static_cast<int>(level(lengths, random).equal_lengths.size());
+  }
+  EXPECT_LT(found, 30);  // there are three or four each time
 }
 
 TEST(EqualSteps, AreHardlyFoundByChance) {  // rows of four are, two hundred times here

@@ -107,6 +107,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   for (std::size_t j = 0; j < result.patches.size(); ++j)
     for (const int i : result.patches[j].cells) result.patch_of_cell[i] = static_cast<int>(j);
   find_neighbours(grid, cells, angle, result, context);
+  if (!space.is_2d()) mark_bowed(grid, context, result);
   return result;
 }
 

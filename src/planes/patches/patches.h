@@ -23,6 +23,7 @@ struct Patch {
   double doubt_v = 0;     ///< the same along v
   double systematic_u = 0;  ///< the part of doubt_u that no noise model contains
   double systematic_v = 0;  ///< the same along v
+  bool bowed = false;       ///< a strip of a curved surface: which way it faces means nothing
 };
 
 struct Patches {
@@ -44,6 +45,9 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
 
 /// The variance (rad²) of a fit's tilt along one of its axes with at least as much as independent points leave, `spread` (m) along it.
 double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, double spread);
+
+/// Marks patches that are bent as the turns to those that adjoin ask for.
+void mark_bowed(const VoxelGrid& grid, const Context& context, Patches& patches);
 
 /// Grows regions over neighbouring voxels, from the flattest upward, while normals stay within `angle` (rad)
 /// of the running fit and residuals within the local scale; then splits what two planes explain clearly

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one standard deviation from the centre may be turned off, and no less than the rms of
                                       // the surface's own fit, which is what it is not flat by
+constexpr double kPlain = 0.7 * kPi / 180.0, kRougher = 3.0;  // but of what it is not flat by, where that is less, if it is turned by more than this
 constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
 /// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.
@@ -20,6 +21,13 @@ double turned_off(const Surface& surface, const Vec3& n) {
   return std::hypot(u * fit.spread_u, v * fit.spread_v);
 }
 
+/// How far points may be turned off (m).
+double most_turned_off(const Surface& surface, const Vec3& n, double tolerance) {
+  const PlaneFit& fit = surface.support.fit;
+  const double carried = kCarriedAway * tolerance;
+  return std::max(fit.rms, line_angle(n, fit.normal) > kPlain ? std::min(carried, kRougher * fit.rms) : carried);
+}
+
 }  // namespace
 
 void refit_held(Model& model, double tolerance, const Space& space) {
@@ -28,9 +36,10 @@ void refit_held(Model& model, double tolerance, const Space& space) {
     refit(model);
     if (space.is_2d()) return;
     Surface* farthest = nullptr;
-    double most = kCarriedAway * tolerance;
+    double most = 0;
     for (Surface& s : model.surfaces)
-      if (const double off = turned_off(s, model.normal(s)); s.frame < static_cast<int>(shared) && off > std::max(most, s.support.fit.rms)) most = off, farthest = &s;
+      if (const double off = turned_off(s, model.normal(s)); s.frame < static_cast<int>(shared) && off > std::max(most, most_turned_off(s, model.normal(s), tolerance)))
+        most = off, farthest = &s;
     if (farthest == nullptr) return;
     farthest->local = 0;
     farthest->frame = static_cast<int>(shared);

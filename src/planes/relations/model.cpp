@@ -59,7 +59,7 @@ std::vector<Mat3> turn_covariances(const std::vector<Patch>& patches, const std:
 }
 
 /// Gives parts of one direction whose offsets do not differ significantly one surface, the largest part first.
-void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, const Cells& surface, const Space& space, double least_noise,
+void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, const VoxelGrid& grid, const Cells& surface, const Space& space,
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
                     Model& model, const Context& context) {
   constexpr double kExact = 0.003;    // of the tolerance: what differs by less is the same
@@ -72,7 +72,10 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
   std::vector<Patch> patches(cells.size());
   parallel_blocks(context, cells.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j)
-      if (!cells[j].empty()) patches[j] = make_patch(grid, space, std::move(cells[j]), least_noise, surface);
+      if (!cells[j].empty()) {
+        patches[j] = make_patch(grid, space, std::move(cells[j]), known.least_noise, surface);
+        patches[j].bowed = known.patches[j].bowed;
+      }
   });
   const std::vector<Mat3> turns = turn_covariances(patches, normals, frame, model.frames.size());
   std::vector<Sum> sums;
@@ -109,7 +112,7 @@ void share_surfaces(const std::vector<Vec3>& normals, const VoxelGrid& grid, con
         all.insert(all.end(), more.begin(), more.end());
       }
       std::sort(all.begin(), all.end());
-      support = make_patch(grid, space, std::move(all), least_noise, surface);
+      support = make_patch(grid, space, std::move(all), known.least_noise, surface);
     }
   });
 }
@@ -123,6 +126,7 @@ void hold_patches(const Patches& patches, double tolerance, const Space& space, 
     known.fit = patch.fit;
     known.variance_u = patch.variance_u;
     known.variance_v = patch.variance_v;
+    known.bowed = patch.bowed;
   }
   refit_held(model, tolerance, space);
   for (std::size_t j = 0; j < model.surfaces.size(); ++j) frame[j] = model.surfaces[j].frame, local[j] = model.surfaces[j].local;
@@ -152,7 +156,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
     cells_of[group[j]].insert(cells_of[group[j]].end(), c.begin(), c.end());
   }
   for (std::vector<int>& c : cells_of) std::sort(c.begin(), c.end());
-  share_surfaces(normals, grid, cells, space, patches.least_noise, r.frame_of_patch, r.local_of_patch, std::move(cells_of), model,
+  share_surfaces(patches, normals, grid, cells, space, r.frame_of_patch, r.local_of_patch, std::move(cells_of), model,
                  context);
   return model;
 }

@@ -29,6 +29,9 @@ std::vector<Group> groups_of(const Evidence& p, const Selection& selection) {
   return groups;
 }
 
+/// Whether a group is a bowed patch: it is related to nothing.
+bool is_bowed(const Evidence& p, const Group& group) { return std::any_of(group.members.begin(), group.members.end(), [&](const Member& m) { return p.patch(m).bowed; }); }
+
 /// The earlier group from which this one does not differ significantly, and its members' directions there.
 int equivalent_group(const Evidence& p, const Group& group, const std::vector<Group>& earlier,
                      std::vector<Member>& members) {
@@ -73,8 +76,12 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
     result.local_of_patch = selection.local_of_patch;
     return result;
   }
-  std::vector<Group> nodes;
+  std::vector<Group> nodes, bowed;
   for (Group& group : groups_of(p, selection)) {
+    if (is_bowed(p, group)) {
+      bowed.push_back(std::move(group));
+      continue;
+    }
     group.frame = fit_constrained(p, group.frame, group.members, {}, {});
     std::vector<Member> members;
     if (const int g = equivalent_group(p, group, nodes, members); g >= 0) {
@@ -92,6 +99,7 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
       relate_to_earlier(p, std::move(group), nodes, result.constraints);
     }
   }
+  nodes.insert(nodes.end(), bowed.begin(), bowed.end());  // after all others, which are related to earlier ones
   for (const Group& node : nodes) result.frames.push_back(node.frame);
   result.frame_of_patch.assign(patches.patches.size(), -1);
   result.local_of_patch.assign(patches.patches.size(), -1);
@@ -110,6 +118,7 @@ bool relate_again(Model& model, const AngleSet& angles, const Space& space) {
     Patch& p = patches.emplace_back();
     p.fit = s.support.fit;
     p.area = s.support.area;
+    p.bowed = s.support.bowed;
     std::tie(p.doubt_u, p.doubt_v) = tilt_variances(s.support);
   }
   const Evidence p{patches, model.locals, angles, space};
@@ -126,6 +135,7 @@ bool relate_again(Model& model, const AngleSet& angles, const Space& space) {
     std::vector<Constraint> rows;
     for (const Constraint& c : model.constraints)
       if (c.a == static_cast<int>(f)) rows.push_back(c);
+    if (is_bowed(p, nodes[f])) nodes[f].members.clear();
     if (!nodes[f].members.empty()) relate(p, nodes[f], earlier, rows);
     constraints.insert(constraints.end(), rows.begin(), rows.end());
     earlier.push_back(std::move(nodes[f]));

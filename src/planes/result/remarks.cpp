@@ -99,6 +99,16 @@ void warn_of_up(const Arrangement& result, Context& context) {
 void warn_of_curves(const Patches& patches, const Space& space, Context& context) {
   constexpr double kLeast = 2.0 * kPi / 180.0, kMost = 20.0 * kPi / 180.0;  // between strips of a curved surface
   constexpr double kFlush = 0.5 * kPi / 180.0, kMany = 0.6, kWhole = 0.8;   // no edge; of all edges; of the area that has edges, with most of that sort
+  constexpr double kMuch = 0.2;                                             // of the area
+  double bowed = 0, whole = 0;
+  for (const Patch& p : patches.patches) {
+    whole += p.area;
+    if (p.bowed) bowed += p.area;
+  }
+  if (bowed > kMuch * whole) {
+    context.warn(fmt::format("{:.0f} % of the planes' area is strips of curved surfaces: they are related to nothing", 100.0 * bowed / whole));
+    return;
+  }
   std::vector<double> gentle(patches.patches.size(), 0.0), all(patches.patches.size(), 0.0);
   for (const auto& [a, b] : patches.adjoining) {
     const Patch &pa = patches.patches[a], &pb = patches.patches[b];

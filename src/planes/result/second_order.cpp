@@ -5,13 +5,17 @@
 #include <limits>
 
 #include "planes/result/describe.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::planes {
 namespace {
 
-constexpr double kStepTolerance = 0.25;  // of the scale: offsets this close are equal
+constexpr double kStepTolerance = 0.25;  // of the scale: offsets and lengths this close are equal,
+constexpr double kStepNoise = 2.0;       // offsets if they are as close as so many times the noise of the planes, too,
+constexpr double kLeastStep = 0.005;     // or as this share of the scale
 constexpr std::size_t kMostPerDirection = 400;
-constexpr double kByChance = 0.05;  // rows as long that a direction may be expected to have by chance
+constexpr double kByChance = 0.05;  // rows as long that a direction may be expected to have by chance, or planes as alike
+constexpr double kRunByChance = 0.2;  // runs as long, of planes that follow each other
 
 /// Extent of a plane's outline along two axes of its plane.
 struct Extent {
@@ -52,16 +56,26 @@ Spacing spacing_of(const std::vector<int>& planes, const Arrangement& result) {
   return s;
 }
 
-/// Runs of at least three planes, each a step farther than the one before.
+/// How close offsets must be to count as equal (m). What is noisier than most, as a tread with the riser's foot, does not tell.
+double step_tolerance(const Arrangement& result) {
+  std::vector<double> noise;
+  for (const ArrangedPlane& p : result.planes) noise.push_back(p.rms);
+  return std::clamp(kStepNoise * median(std::move(noise)), kLeastStep * result.scale, kStepTolerance * result.scale);
+}
+
+/// Runs of at least three planes, each a step farther than the one before, of which so many may not be expected by chance.
 void find_steps(const std::vector<int>& by_offset, double tolerance, Arrangement& result) {
   const auto offset = [&](std::size_t i) { return result.planes[by_offset[i]].plane.offset; };
   for (std::size_t first = 0; first + 2 < by_offset.size();) {
     std::size_t last = first + 1;
     const double step = offset(last) - offset(first);
-    while (step > 4 * tolerance && last + 1 < by_offset.size() &&
+    while (step > result.scale && last + 1 < by_offset.size() &&
            std::abs(offset(last + 1) - offset(last) - step) < tolerance)
       ++last;
-    if (last < first + 2) {
+    const double between = static_cast<double>(by_offset.size() - 1) / (offset(by_offset.size() - 1) - offset(0));
+    const double hit = std::min(1.0, 2.0 * tolerance * between);
+    const auto length = static_cast<double>(last - first + 1);
+    if (last < first + 2 || (static_cast<double>(by_offset.size()) - length + 1.0) * std::pow(hit, length - 2.0) > kRunByChance) {
       ++first;
       continue;
     }
@@ -100,7 +114,7 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
     std::vector<std::size_t> best;
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = i + 1; k < count && !taken[i]; ++k)
-        if (!taken[k] && offsets[k] - offsets[i] > 4 * tolerance)
+        if (!taken[k] && offsets[k] - offsets[i] > result.scale)
           if (std::vector<std::size_t> row = row_from(i, k); row.size() > best.size()) best = std::move(row);
     if (best.size() < 4 || by_chance(best) > kByChance) return;
     std::vector<int> planes;
@@ -114,20 +128,38 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
   }
 }
 
-/// Planes of one direction whose longer sides are equal.
-void find_equal_lengths(const std::vector<int>& planes, const Vec3& u, const Vec3& v, double tolerance,
-                        Arrangement& result) {
-  std::vector<std::pair<double, int>> lengths;
-  for (const int p : planes) {
-    const Extent e = extent_of(result.planes[p], u, v);
-    const double length = std::max(e.high_u - e.low_u, e.high_v - e.low_v);
-    if (length > 4 * tolerance) lengths.emplace_back(length, p);
+/// Length of a segment, or the longer side of the least rectangle around an outline, along one of its edges.
+double length_of(const ArrangedPlane& p) {
+  const std::vector<Vec3> corners = corners_of(p);
+  double length = 0, least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
+    if (!(edge.norm() > 0.0)) continue;
+    const Vec3 u = edge.normalized();
+    const Extent e = extent_of(p, u, p.plane.normal.cross(u));
+    const double a = e.high_u - e.low_u, b = e.high_v - e.low_v;
+    if (a * b < least) least = a * b, length = std::max(a, b);
   }
+  return length;
+}
+
+/// Planes of one direction that are equally long, if so many alike may not be expected by chance.
+void find_equal_lengths(const std::vector<int>& planes, double tolerance, Arrangement& result) {
+  std::vector<std::pair<double, int>> lengths;
+  for (const int p : planes)
+    if (const double length = length_of(result.planes[p]); length > 4 * tolerance) lengths.emplace_back(length, p);
   std::sort(lengths.begin(), lengths.end());
+  // Of lengths that are anything up to the longest, others are as alike as these so often.
+  const auto by_chance = [&](std::size_t count) {
+    const double others = static_cast<double>(lengths.size() - 1) * std::min(1.0, 2 * tolerance / lengths.back().first);
+    double term = std::exp(-others), fewer = 0;  // Poisson
+    for (std::size_t k = 0; k + 1 < count; ++k) fewer += term, term *= others / static_cast<double>(k + 1);
+    return static_cast<double>(lengths.size()) * (1.0 - fewer) > kByChance * static_cast<double>(count);
+  };
   for (std::size_t first = 0; first < lengths.size();) {
     std::size_t end = first + 1;
     while (end < lengths.size() && lengths[end].first - lengths[first].first < 2 * tolerance) ++end;
-    if (end - first >= 3) {
+    if (end - first >= 3 && !by_chance(end - first)) {
       EqualLength e;
       double sum = 0, squares = 0;
       for (std::size_t i = first; i < end; ++i) {
@@ -147,9 +179,10 @@ void find_equal_lengths(const std::vector<int>& planes, const Vec3& u, const Vec
 }  // namespace
 
 void find_second_order(Arrangement& result) {
+  if (result.planes.empty()) return;
   std::vector<std::vector<int>> of_direction(result.directions.size());
   for (std::size_t p = 0; p < result.planes.size(); ++p) of_direction[result.planes[p].direction].push_back(static_cast<int>(p));
-  const double tolerance = kStepTolerance * result.scale;
+  const double tolerance = step_tolerance(result);
   const std::optional<int> flat = flat_axis(result);
   for (std::size_t d = 0; d < of_direction.size(); ++d) {
     std::vector<int> planes = of_direction[d];
@@ -172,7 +205,7 @@ void find_second_order(Arrangement& result) {
     }
     find_steps(levels, tolerance, result);
     find_rows(levels, tolerance, result);
-    find_equal_lengths(planes, u, v, tolerance, result);
+    find_equal_lengths(planes, kStepTolerance * result.scale, result);
     std::vector<Extent> extents;
     for (const int p : planes) extents.push_back(extent_of(result.planes[p], u, v));
     for (std::size_t i = 0; i < planes.size(); ++i)

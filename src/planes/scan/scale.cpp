@@ -60,9 +60,9 @@ Scale estimate_scale(PointSource& source, const Survey& survey, const Space& spa
         static_cast<double>(flat.size()) > kFewestFlat * static_cast<double>(probes.size()) && kPlants * scale_by(flat, space) < scale_by(probes, space))
       probes = std::move(flat);
   const double noise = noise_of(probes, space), scale = std::clamp(scale_by(probes, space), 1e-4 * survey.extent(), 0.1 * survey.extent());
-  const double step = step_of_levels(survey, space, probes, scale, context);
+  const double levels = step_of_levels(survey, space, probes, scale, context), step = std::max(levels, source.info().rounding);
   Scale result{scale, scale};
-  if (step == 0.0 && !space.is_2d() && kNoise * noise < scale)
+  if (levels == 0.0 && !space.is_2d() && kNoise * noise < scale)
     result.tolerance = std::min(scale, std::max(kLeastTolerance * scale, kNoise * wide_noise(tree, space, probes, context)));
   if (kStepsSpanned * step > scale) result = {kStepsSpanned * step, kStepsSpanned * step, step};
   return result;

@@ -100,7 +100,7 @@ double doubt_at_edges(const Patches& patches, const AngleSet& angles) {
   for (const auto& [a, b] : patches.adjoining) {
     const Patch &pa = patches.patches[a], &pb = patches.patches[b];
     const double angle = line_angle(pa.fit.normal, pb.fit.normal);
-    if (angle < kFlat) continue;
+    if (angle < kFlat || pa.bowed || pb.bowed) continue;
     const Vec3 axis = pa.fit.normal.cross(pb.fit.normal).normalized();
     double systematic = 0, noise = 0;
     for (const Patch* p : {&pa, &pb}) {

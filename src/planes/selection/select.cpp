@@ -16,17 +16,21 @@ namespace {
 constexpr std::size_t kFirstRound = 80;  // patches that are selected at once, at least
 constexpr double kExplained = 0.05;       // data cost below which a patch asks for no new frame
 
-/// Patches of each round, the largest first: the area threshold is halved until none is left.
+/// Patches of each round, the largest first: the area threshold is halved until none is left. Bowed ones are in none.
 std::vector<std::vector<int>> rounds_by_area(const Patches& patches) {
+  std::vector<int> flat;
+  for (std::size_t j = 0; j < patches.patches.size(); ++j)
+    if (!patches.patches[j].bowed) flat.push_back(static_cast<int>(j));
+  const auto area = [&](std::size_t i) { return patches.patches[flat[i]].area; };
   std::vector<std::vector<int>> rounds;
   std::size_t at = 0;
-  double threshold = patches.patches.empty() ? 0 : patches.patches.front().area;
-  while (at < patches.patches.size()) {
+  double threshold = flat.empty() ? 0 : area(0);
+  while (at < flat.size()) {
     std::vector<int> round;
     const std::size_t least = rounds.empty() ? kFirstRound : 1;
-    while (at < patches.patches.size() && (round.size() < least || patches.patches[at].area > threshold)) {
-      threshold = std::min(threshold, patches.patches[at].area);
-      round.push_back(static_cast<int>(at++));
+    while (at < flat.size() && (round.size() < least || area(at) > threshold)) {
+      threshold = std::min(threshold, area(at));
+      round.push_back(flat[at++]);
     }
     threshold *= 0.5;
     rounds.push_back(std::move(round));
@@ -39,7 +43,8 @@ Energy keep_local_fits(const Patches& patches, const AngleSet& angles, const Spa
                        const std::vector<Vec3>& locals, double lambda, const Context& context) {
   if (lambda == 1.0) return {};
   std::vector<OrientationFrame> frames;
-  for (const Patch& p : patches.patches) frames.push_back(open_frame(p.fit.normal, space));
+  for (const Patch& p : patches.patches)
+    if (!p.bowed) frames.push_back(open_frame(p.fit.normal, space));
   Energy e;
   double pairs = 0;
   std::vector<double> with(frames.size());  // added one by one: the sum is the same on any number of threads
@@ -51,7 +56,7 @@ Energy keep_local_fits(const Patches& patches, const AngleSet& angles, const Spa
   }
   e.irregularity = (1.0 - lambda) * irregularity_cost(pairs);
   for (const auto& [a, b] : patches.neighbours)
-    if (line_angle(patches.patches[a].fit.normal, patches.patches[b].fit.normal) > kSameOrientation)
+    if (!patches.patches[a].bowed && !patches.patches[b].bowed && line_angle(patches.patches[a].fit.normal, patches.patches[b].fit.normal) > kSameOrientation)
       e.smoothness += (1.0 - lambda) / 10.0;
   return e;
 }
@@ -137,6 +142,13 @@ void keep_used(const Patches& patches, const std::vector<int>& members, const Ro
   }
 }
 
+/// Gives a patch a frame of its own.
+void keep_local_fit(const Patches& patches, std::size_t j, const Space& space, Selection& s) {
+  s.frame_of_patch[j] = static_cast<int>(s.frames.size());
+  s.local_of_patch[j] = 0;
+  s.frames.push_back(open_frame(patches.patches[j].fit.normal, space));
+}
+
 }  // namespace
 
 OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
@@ -174,11 +186,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
 
   if (lambda == 1.0) {
     s.local_fits = true;
-    for (std::size_t j = 0; j < patches.patches.size(); ++j) {
-      s.frames.push_back(open_frame(patches.patches[j].fit.normal, space));
-      s.frame_of_patch[j] = static_cast<int>(j);
-      s.local_of_patch[j] = 0;
-    }
+    for (std::size_t j = 0; j < patches.patches.size(); ++j) keep_local_fit(patches, j, space, s);
     return s;
   }
   const auto started = std::chrono::steady_clock::now();
@@ -203,6 +211,8 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     keep_used(patches, members, round, fixed, locals, patch_angle, s);
     if (options.solver != "exact") s.unbounded.emplace_back(std::move(round.problem), energy);
   }
+  for (std::size_t j = 0; j < patches.patches.size(); ++j)
+    if (patches.patches[j].bowed) keep_local_fit(patches, j, space, s);
   return s;
 }
 

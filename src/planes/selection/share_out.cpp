@@ -22,6 +22,7 @@ std::vector<Offered> suited_by(const OrientationFrame& frame, const Patches& pat
   std::vector<Offered> suited;
   for (std::size_t j = 0; j < patches.patches.size(); ++j) {
     const Patch& patch = patches.patches[j];
+    if (patch.bowed) continue;
     const Candidate c = best_candidate(patch, frame, locals, patch_angle);
     if (c.local >= 0 && tilt_chi2(patch, frame.direction(locals[c.local])) < kIndistinct) suited.push_back({j, c.local});
   }
@@ -58,6 +59,7 @@ void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, do
   std::vector<std::vector<Offered>> offers(s.frames.size());
   for (std::size_t j = 0; j < patches.patches.size(); ++j) {
     const Patch& patch = patches.patches[j];
+    if (patch.bowed) continue;
     const Vec3 has = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
     for (std::size_t k = 0; k < s.frames.size(); ++k) {
       const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
