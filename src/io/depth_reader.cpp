@@ -28,14 +28,11 @@ class DepthSource final : public PointSource {
     if (folder_.frames.size() == 1) info_.viewpoint = folder_.frames[0].T_world_camera.translation;
   }
 
-  SourceInfo info() const override {
-    SourceInfo info = info_;
-    info.rounding = values_.rounding();
-    return info;
-  }
+  SourceInfo info() const override { return info_; }
 
   void rewind() override {
     started_ = true;
+    if (valued_ == 0) values_ = {};
     decode_ahead(0);
     points_ = 0;
   }
@@ -55,16 +52,15 @@ class DepthSource final : public PointSource {
       unproject(image.depth, folder_.frames[frame].T_world_camera, block);
       if (block.positions.empty()) continue;
       points_ += block.size();
-      if (frame >= valued_ && frame < kFramesOfValues) {
-        values_.add(image.depth, low_, high_);
-        valued_ = frame + 1;
-      }
+      if (frame >= valued_ && frame < kFramesOfValues) values_.add(image.depth, low_, high_);
       return true;
     }
     if (points_ == 0)
       throw InputError(
           info_.name, "frames", info_.notes.empty() ? "no depth in range" : "none usable (" + info_.notes.back() + ")",
           "a depth from " + std::to_string(low_) + " to " + std::to_string(high_) + " m somewhere");
+    if (valued_ == 0) info_.rounding = values_.rounding();
+    valued_ = at_;
     return false;
   }
 
@@ -148,7 +144,7 @@ class DepthSource final : public PointSource {
   int width_ = 0, height_ = 0;  ///< of the first picture
   std::size_t points_ = 0;
   DepthValues values_;
-  std::size_t valued_ = 0;  ///< frames that these are of, and that were passed by
+  std::size_t valued_ = 0;  ///< frames that were passed by when these were counted
   bool started_ = false;
   std::set<std::size_t> faults_;  ///< frames that were noted
   std::future<Decoded> ahead_;

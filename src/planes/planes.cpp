@@ -95,8 +95,8 @@ Look look_at(PointSource& source, const Options& options, Context& context, Arra
   if (info.has_normals && !look.use_normals) context.warn("input normals are not usable; they are estimated instead");
   if (look.space.is_2d() && !info.two_dimensional) context.message("all points share one coordinate: taken as a drawing");
   if (estimated)
-    context.message(fmt::format("scale {:.4g}{unit}, estimated from spacing and noise; points may lie {:.4g}{unit} from their plane", result.scale, look.scale.tolerance,
-                                fmt::arg("unit", look.space.is_2d() ? "" : " m")));
+    context.message(fmt::format("scale {:.4g}{unit}, {}; points may lie {:.4g}{unit} from their plane", result.scale, look.scale.step > 0.0 ? "as the steps of the depth ask for" : "estimated from spacing and noise",
+                                look.scale.tolerance, fmt::arg("unit", look.space.is_2d() ? "" : " m")));
   warn_of_rounding(look.survey, result.scale, context);
   if (estimated) warn_of_units(look.survey, look.space, result.scale, context);
   result.summary.counts = {{"points", look.survey.points}, {"assigned", 0}, {"patches", 0}, {"planes", 0}, {"finite", look.survey.finite}, {"duplicates", look.survey.duplicates}};
@@ -190,7 +190,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   }
   Stage stage(context, summary, "relations");
   find_relations(angles, result);
-  find_second_order(result);
+  find_second_order(result, look.raster);
   tag_planes(result);
   warn_of_up(result, context);
   warn_of_curves(patches, space, context);

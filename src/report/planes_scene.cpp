@@ -65,7 +65,7 @@ void add_facts(SceneBuilder& scene, const Arrangement& a) {
   const std::size_t points = count_of(a.summary, "points"), assigned = count_of(a.summary, "assigned");
   const std::string things = a.two_dimensional ? "lines" : "planes";
   add_fact(scene, things, std::to_string(a.planes.size()));
-  add_fact(scene, "orientation frames", std::to_string(a.frames.size()), "Sets of directions at exact angles to each other. What stands askew has a frame of its own");
+  add_fact(scene, "orientation frames", std::to_string(a.frames.size()), "Sets of directions at exact angles to each other. What stands askew has a frame of its own, and so has each strip of a curved surface");
   add_fact(scene, "directions", std::to_string(a.directions.size()), fmt::format("Exactly parallel {} share one", things));
   add_fact(scene, "relations", std::to_string(a.relations.size()), "Exact angles between directions. Each holds to 0.01°");
   add_fact(scene, "related pairs of " + things, grouped(a.plane_relations), fmt::format("Pairs of {} that these relations hold between", things));

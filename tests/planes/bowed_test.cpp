@@ -73,6 +73,18 @@ TEST(Bowed, IsNothingThatIsFlatOrHasARim) {
   EXPECT_FALSE(bowed({tread, rectangle({0, 0.28, 0.04}, {1.2, 0, 0}, {0, 0.05, 0.13}, 0.003)}));
 }
 
+// Two rows of points tell no bend across them, and points without noise do not tell one beyond what they are rounded to.
+TEST(Bowed, IsNothingThatDoesNotTell) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    PointCloud rows, beside;
+    for (double x = 0; x < 2.0; x += 0.05)
+      for (const double y : {0.0, 0.08}) rows.positions.push_back({x, y, 0.002 * random.normal()});
+    test::add_rectangle(beside, {0, 0.1, 0}, {2, 0, 0}, {0, 0.25, 0.12}, 0.03, 0.002, random);
+    EXPECT_FALSE(bowed({rows, beside})) << seed;
+  }
+}
+
 /// Six pipes of 3 m, 30 cm thick.
 PointCloud pipes(Random& random) {
   PointCloud cloud;

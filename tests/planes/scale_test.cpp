@@ -206,6 +206,39 @@ TEST(ChooseScale, CoarseDepthIsNoStaircase) {
     }
 }
 
+/// A cloud whose source says that its depths come in steps.
+class Stepped final : public PointSource {
+ public:
+  Stepped(const PointCloud& cloud, double rounding) : source_(cloud, "stepped"), rounding_(rounding) {}
+  SourceInfo info() const override {
+    SourceInfo info = source_.info();
+    info.rounding = rounding_;
+    return info;
+  }
+  bool next(PointCloud& block) override { return source_.next(block); }
+  void rewind() override { source_.rewind(); }
+
+ private:
+  CloudSource source_;
+  double rounding_;
+};
+
+// Frames from several sides: their levels lie across each other, and only the source knows.
+TEST(ChooseScale, SpansTheStepsThatTheSourceTells) {
+  const PointCloud cloud = test::box_cloud(Vec3::Zero(), {4, 3, 2}, 0.015, 0.002, 4);
+  const auto found = [&](double rounding) {
+    Context context;
+    Stepped source(cloud, rounding);
+    return find_planes(source, Options(), context);
+  };
+  EXPECT_LT(found(0.001).scale, 0.04);
+  EXPECT_TRUE(found(0.001).summary.warnings.empty());
+  const Arrangement coarse = found(0.03);
+  EXPECT_NEAR(coarse.scale, 0.075, 1e-9);
+  ASSERT_EQ(coarse.summary.warnings.size(), 1u);
+  EXPECT_NE(coarse.summary.warnings[0].find("levels that are about 0.03 m apart"), std::string::npos) << coarse.summary.warnings[0];
+}
+
 // A model without noise: its treads are levels too, but its risers are as exact.
 TEST(ChooseScale, StepsOfAModelAreReal) {
   PointCloud cloud;

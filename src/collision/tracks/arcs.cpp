@@ -73,7 +73,7 @@ double estimate_noise(const Candidates& candidates, double least) {
       for (const Candidate& b : some(k + 1))
         for (const Candidate& c : some(k + 2))
           for (const Candidate& d : some(k + 3)) {
-            if (!can_fly(a) || unlikeness(a, b) + unlikeness(b, c) + unlikeness(c, d) > kAlike) continue;
+            if (!can_fly(a) || unlikeness(a, b) + unlikeness(b, c) + unlikeness(c, d) > kLooksAlike) continue;
             const double third = off_any_flight({&a, &b, &c, &d}).norm();
             if (third < best) {
               best = third;
@@ -125,10 +125,10 @@ std::vector<Arc> find_arcs(const Candidates& candidates, double noise, double ji
       const auto &first = candidates[k], &second = candidates[k + step], &third = candidates[k + 2 * step];
       for (int a = 0; a < static_cast<int>(first.size()); ++a)
         for (int b = 0; b < static_cast<int>(second.size()); ++b) {
-          if (!can_fly(first[a]) || !can_fly(second[b]) || unlikeness(first[a], second[b]) > kAlike) continue;
+          if (!can_fly(first[a]) || !can_fly(second[b]) || unlikeness(first[a], second[b]) > kLooksAlike) continue;
           if ((second[b].pixel - first[a].pixel).norm() > far * step) continue;
           for (int c = 0; c < static_cast<int>(third.size()); ++c) {
-            if (!can_fly(third[c]) || unlikeness(second[b], third[c]) > kAlike) continue;
+            if (!can_fly(third[c]) || unlikeness(second[b], third[c]) > kLooksAlike) continue;
             const double length = (third[c].pixel - first[a].pixel).norm();
             const double bend = (third[c].pixel - 2.0 * second[b].pixel + first[a].pixel).norm();
             if (bend > kLargestBend * std::max(length, 0.15 * far * step) + 4.0 * noise) continue;

@@ -143,7 +143,7 @@ const Candidate* ArcGrower::nearest(int k, const Curve& curve, const Candidate& 
   for (const Candidate& c : candidates_[k]) {
     if (!can_fly(c)) continue;
     const double off = (c.pixel - curve.at(c.u)).squaredNorm() / (2.0 * sigma * sigma), unlike = unlikeness(c, like);
-    if (unlike < kAlike && off + unlike < least + kAlike && off < kGate * kGate / 2.0 && (!best || off + unlike < least)) {
+    if (unlike < kLooksAlike && off + unlike < least + kLooksAlike && off < kGate * kGate / 2.0 && (!best || off + unlike < least)) {
       best = &c;
       least = off + unlike;
     }

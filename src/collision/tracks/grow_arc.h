@@ -10,7 +10,7 @@
 
 namespace unseen::collision {
 
-constexpr double kAlike = 6.0;  ///< σ² between neighbours' looks
+constexpr double kLooksAlike = 6.0;  ///< σ² between neighbours' looks
 
 /// Whether a candidate can be a body alone.
 bool can_fly(const Candidate& c);

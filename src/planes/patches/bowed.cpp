@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-// Patches that are strips of a curved surface: each is bent as the turn to its neighbour asks for, where planes are flat up to the edge between them.
+// Patches of curved surfaces: each is bent as the turn to its neighbour asks for, where planes are flat up to the edge between them.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/linear.h"
 #include "planes/patches/patches.h"
@@ -14,29 +14,30 @@ namespace {
 constexpr std::size_t kFewestVoxels = 8;
 constexpr double kLeastTurn = 3.0 * kPi / 180.0, kMostTurn = 75.0 * kPi / 180.0;  // between strips of one surface
 constexpr double kAcross = 5.0 * kPi / 180.0;  // by which one turns at its ends against its middle, at least: a wall that bulges turns by less
-constexpr double kLikelier = 6.0, kHardly = 1.0;  // the log likelihood of bent against flat; beside a bowed patch
+constexpr double kLikelier = 6.0, kHardly = 1.0;  // the log likelihood of bent against flat that is asked for; beside a bowed patch
 constexpr double kMost = 2.5;                  // times as bent as the turn asks for at most
 constexpr double kCorrelated = 2.0;            // variance of a bend by noise, over that of independent points
-constexpr double kHalf = 1.73205080756887729;  // half an extent over its spread, of evenly spread points
+constexpr double kHalf = 1.73205080756887729;  // √3: half an extent over its spread, of evenly spread points
 constexpr int kRounds = 4;                     // in which what lies beside a bowed patch, or between two and does not say that it is flat, joins them
-constexpr double kFlat = 3.0;                  // σ that it may be off as bent as that
+constexpr double kFlat = 3.0;                  // σ between its bend and what the turn asks for that do not say so
 
 using Six = Eigen::Matrix<double, 6, 1>;
 
 /// w ≈ a + b·(u, v) + ½ (u, v) H (u, v)ᵀ of a patch's points over its plane.
 struct Bend {
-  Eigen::Matrix2d h;     ///< H, 1/m
-  Eigen::Matrix<double, 6, 6> covariance;
+  Eigen::Matrix2d h;           ///< H, 1/m
+  Eigen::Matrix3d covariance;  ///< of H_uu, H_uv and H_vv
   bool known = false;
 
   double along(const Eigen::Vector2d& e) const { return e.dot(h * e); }
   double variance_along(const Eigen::Vector2d& e) const {
-    const Six c = (Six() << 0.0, 0.0, 0.0, e.x() * e.x(), 2.0 * e.x() * e.y(), e.y() * e.y()).finished();
+    const Vec3 c(e.x() * e.x(), 2.0 * e.x() * e.y(), e.y() * e.y());
     return c.dot(covariance * c);
   }
 };
 
-Bend bend_of(const VoxelGrid& grid, const Patch& patch) {
+/// Points count as no less noisy than `least_noise` (m).
+Bend bend_of(const VoxelGrid& grid, const Patch& patch, double least_noise) {
   Bend bend;
   if (patch.cells.size() < kFewestVoxels) return bend;
   const PlaneFit& fit = patch.fit;
@@ -56,9 +57,8 @@ Bend bend_of(const VoxelGrid& grid, const Patch& patch) {
   }
   if (count < 12.0) return bend;
   const Six x = solve_symmetric<6>(normal, right);
-  const double variance = kCorrelated * std::max(0.0, squares - x.dot(right)) / (count - 6.0);
-  for (int k = 0; k < 6; ++k) bend.covariance.col(k) = variance * solve_symmetric<6>(normal, Six::Unit(k));
-  bend.covariance /= std::pow(unit, 4);
+  const double variance = kCorrelated * std::max((squares - x.dot(right)) / (count - 6.0), least_noise * least_noise);
+  for (int k = 0; k < 3; ++k) bend.covariance.col(k) = variance / std::pow(unit, 4) * solve_symmetric<6>(normal, Six::Unit(3 + k)).tail<3>();
   bend.h << x[3], x[4], x[4], x[5];
   bend.h /= unit * unit;
   bend.known = bend.h.allFinite() && bend.covariance.allFinite();
@@ -87,9 +87,9 @@ bool find_turn(const Patch& patch, const Patch& other, Turn& turn) {
 
 /// The log likelihood that a patch is bent as a turn asks for, against flat.
 double likelier_bent(const Bend& bend, const Turn& turn) {
-  const double along = bend.along(turn.towards);
-  if (along / turn.bend > kMost) return -1.0;
-  return 0.5 * (along * along - std::pow(along - turn.bend, 2)) / bend.variance_along(turn.towards);
+  const double along = bend.along(turn.towards), variance = bend.variance_along(turn.towards);
+  if (along / turn.bend > kMost || !(variance > 0.0)) return -1.0;  // points in two rows tell no bend across them
+  return 0.5 * (along * along - std::pow(along - turn.bend, 2)) / variance;
 }
 
 }  // namespace
@@ -100,12 +100,13 @@ void mark_bowed(const VoxelGrid& grid, const Context& context, Patches& patches)
   for (const auto& [a, b] : patches.adjoining) beside[a].push_back(b), beside[b].push_back(a);
   std::vector<Bend> bends(count);
   std::vector<char> bowed(count, 0);
+  const double least_noise = std::max(patches.least_noise, grid.rounding / std::sqrt(12.0));
   parallel_blocks(context, count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j)
       for (const int other : beside[j]) {
         Turn turn;
         if (!find_turn(patches.patches[j], patches.patches[other], turn)) continue;
-        if (!bends[j].known) bends[j] = bend_of(grid, patches.patches[j]);
+        if (!bends[j].known) bends[j] = bend_of(grid, patches.patches[j], least_noise);
         if (!bends[j].known) break;
         if (likelier_bent(bends[j], turn) > kLikelier) bowed[j] = 1;
       }

@@ -21,7 +21,8 @@ std::vector<double> log_choices(const Evidence& p, const std::vector<std::set<in
   std::vector<double> choices;
   for (const Member& m : members) {
     std::set<int> near;
-    for (const int other : adjoining[m.patch]) near.insert(group_of[other]);
+    for (const int other : adjoining[m.patch])
+      if (group_of[other] >= 0) near.insert(group_of[other]);
     const bool neighbour = near.count(group_of[m.patch]) > 0;
     choices.push_back(std::log(static_cast<double>(p.locals.size() * (neighbour ? near.size() : groups))));
   }

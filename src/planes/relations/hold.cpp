@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one standard deviation from the centre may be turned off, and no less than the rms of
                                       // the surface's own fit, which is what it is not flat by
-constexpr double kPlain = 0.7 * kPi / 180.0, kRougher = 3.0;  // but of what it is not flat by, where that is less, if it is turned by more than this
+constexpr double kPlain = 0.7 * kPi / 180.0, kRougher = 3.0;  // a surface that is turned by more may be off by so many times the rms of its own fit only, where the scale is coarse
 constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
 /// How far (m) a plane of this normal turns off the points of a surface one standard deviation from its centre; 0 where noise may explain it.

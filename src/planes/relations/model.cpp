@@ -112,7 +112,9 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
         all.insert(all.end(), more.begin(), more.end());
       }
       std::sort(all.begin(), all.end());
+      const bool bowed = support.bowed;
       support = make_patch(grid, space, std::move(all), known.least_noise, surface);
+      support.bowed = bowed;
     }
   });
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -99,7 +100,7 @@ Reconciled reconcile(const Selection& selection, const Patches& patches, const s
       relate_to_earlier(p, std::move(group), nodes, result.constraints);
     }
   }
-  nodes.insert(nodes.end(), bowed.begin(), bowed.end());  // after all others, which are related to earlier ones
+  nodes.insert(nodes.end(), std::make_move_iterator(bowed.begin()), std::make_move_iterator(bowed.end()));  // after all others, which are related to earlier ones
   for (const Group& node : nodes) result.frames.push_back(node.frame);
   result.frame_of_patch.assign(patches.patches.size(), -1);
   result.local_of_patch.assign(patches.patches.size(), -1);

@@ -119,7 +119,8 @@ OrientationFrame fit_constrained(const Evidence& p, OrientationFrame frame, cons
 void relate(const Evidence& p, Group& group, const std::vector<Group>& earlier, std::vector<Constraint>& constraints) {
   const int index = static_cast<int>(earlier.size());
   double all = 0;
-  for (const Patch& patch : p.patches) all += patch.area;
+  for (const Patch& patch : p.patches)
+    if (!patch.bowed) all += patch.area;
   const std::vector<Vec3> own = telling_directions(p, group.frame, group.members);
   const std::size_t had = constraints.size();
   const double free = chi2(p, fit_constrained(p, group.frame, group.members, constraints, earlier), group.members);

@@ -19,8 +19,8 @@ void count_points(const Moments& points, ArrangedPlane& plane);
 /// Pairs of directions at an angle of Θ, and how many pairs of planes they make.
 void find_relations(const AngleSet& angles, Arrangement& result);
 
-/// Coplanar planes, equal steps, distances between planes that face each other, equal lengths.
-void find_second_order(Arrangement& result);
+/// Coplanar planes, equal steps, distances between planes that face each other, equal lengths. Coordinates come in steps of `rounding` (m).
+void find_second_order(Arrangement& result, double rounding = 0.0);
 
 /// "floor", "ceiling", "wall", … from the up direction: +z, or the normal of the dominant floor.
 void tag_planes(Arrangement& result);

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "planes/result/describe.h"
+#include "unseen/core/convex.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::planes {
 namespace {
 
-constexpr double kStepTolerance = 0.25;  // of the scale: offsets and lengths this close are equal,
-constexpr double kStepNoise = 2.0;       // offsets if they are as close as so many times the noise of the planes, too,
-constexpr double kLeastStep = 0.005;     // or as this share of the scale
+constexpr double kAlike = 0.25;     // of the scale: offsets and lengths that are closer are equal,
+constexpr double kNoise = 2.0;      // offsets only if they are closer than so many times the noise of the planes, too,
+constexpr double kLeast = 0.005;    // or than this share of the scale
+constexpr double kSmallest = 1.0;   // of the scale: a step, or a length, is larger
 constexpr std::size_t kMostPerDirection = 400;
 constexpr double kByChance = 0.05;  // rows as long that a direction may be expected to have by chance, or planes as alike
 constexpr double kRunByChance = 0.2;  // runs as long, of planes that follow each other
@@ -57,10 +60,15 @@ Spacing spacing_of(const std::vector<int>& planes, const Arrangement& result) {
 }
 
 /// How close offsets must be to count as equal (m). What is noisier than most, as a tread with the riser's foot, does not tell.
-double step_tolerance(const Arrangement& result) {
+double step_tolerance(const Arrangement& result, double rounding) {
   std::vector<double> noise;
   for (const ArrangedPlane& p : result.planes) noise.push_back(p.rms);
-  return std::clamp(kStepNoise * median(std::move(noise)), kLeastStep * result.scale, kStepTolerance * result.scale);
+  return std::min(std::max({kNoise * median(std::move(noise)), kLeast * result.scale, rounding}), kAlike * result.scale);
+}
+
+/// How many rows of `length` planes chance makes, of so many that begin with two: each further place has a plane if one lies within the tolerance of it.
+double rows_by_chance(double beginnings, double length, double tolerance, double planes, double span) {
+  return beginnings * std::pow(std::min(1.0, 2.0 * tolerance * planes / span), length - 2.0);
 }
 
 /// Runs of at least three planes, each a step farther than the one before, of which so many may not be expected by chance.
@@ -69,13 +77,11 @@ void find_steps(const std::vector<int>& by_offset, double tolerance, Arrangement
   for (std::size_t first = 0; first + 2 < by_offset.size();) {
     std::size_t last = first + 1;
     const double step = offset(last) - offset(first);
-    while (step > result.scale && last + 1 < by_offset.size() &&
+    while (step > kSmallest * result.scale && last + 1 < by_offset.size() &&
            std::abs(offset(last + 1) - offset(last) - step) < tolerance)
       ++last;
-    const double between = static_cast<double>(by_offset.size() - 1) / (offset(by_offset.size() - 1) - offset(0));
-    const double hit = std::min(1.0, 2.0 * tolerance * between);
-    const auto length = static_cast<double>(last - first + 1);
-    if (last < first + 2 || (static_cast<double>(by_offset.size()) - length + 1.0) * std::pow(hit, length - 2.0) > kRunByChance) {
+    const auto length = static_cast<double>(last - first + 1), all = static_cast<double>(by_offset.size());
+    if (last < first + 2 || rows_by_chance(all - 2.0, length, tolerance, length, offset(last) - offset(first)) > kRunByChance) {
       ++first;
       continue;
     }
@@ -92,9 +98,8 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
   std::vector<double> offsets;
   for (const int p : by_offset) offsets.push_back(result.planes[p].plane.offset);
   const auto by_chance = [&](const std::vector<std::size_t>& row) {
-    const double between = static_cast<double>(row.back() - row.front() + 1) / (offsets[row.back()] - offsets[row.front()]);
-    const double hit = std::min(1.0, 2.0 * tolerance * between);  // that a place has a plane
-    return 0.5 * static_cast<double>(count * count) * std::pow(hit, static_cast<double>(row.size()) - 2.0);
+    return rows_by_chance(0.5 * static_cast<double>(count * count), static_cast<double>(row.size()), tolerance, static_cast<double>(row.back() - row.front() + 1),
+                          offsets[row.back()] - offsets[row.front()]);
   };
   std::vector<char> taken(count, 0);
   const auto row_from = [&](std::size_t first, std::size_t second) {
@@ -114,7 +119,7 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
     std::vector<std::size_t> best;
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = i + 1; k < count && !taken[i]; ++k)
-        if (!taken[k] && offsets[k] - offsets[i] > result.scale)
+        if (!taken[k] && offsets[k] - offsets[i] > kSmallest * result.scale)
           if (std::vector<std::size_t> row = row_from(i, k); row.size() > best.size()) best = std::move(row);
     if (best.size() < 4 || by_chance(best) > kByChance) return;
     std::vector<int> planes;
@@ -130,15 +135,17 @@ void find_rows(const std::vector<int>& by_offset, double tolerance, Arrangement&
 
 /// Length of a segment, or the longer side of the least rectangle around an outline, along one of its edges.
 double length_of(const ArrangedPlane& p) {
-  const std::vector<Vec3> corners = corners_of(p);
+  if (p.segment) return ((*p.segment)[1] - (*p.segment)[0]).norm();
+  const Vec3 u = any_orthogonal(p.plane.normal), v = p.plane.normal.cross(u);
+  std::vector<Eigen::Vector2d> corners;
+  for (const Vec3& c : corners_of(p)) corners.emplace_back(u.dot(c), v.dot(c));
+  corners = convex_hull(std::move(corners));
   double length = 0, least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
-    if (!(edge.norm() > 0.0)) continue;
-    const Vec3 u = edge.normalized();
-    const Extent e = extent_of(p, u, p.plane.normal.cross(u));
-    const double a = e.high_u - e.low_u, b = e.high_v - e.low_v;
-    if (a * b < least) least = a * b, length = std::max(a, b);
+    const Eigen::Vector2d edge = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
+    Eigen::AlignedBox2d box;
+    for (const Eigen::Vector2d& c : corners) box.extend(Eigen::Vector2d(edge.dot(c), edge.x() * c.y() - edge.y() * c.x()));
+    if (box.volume() < least) least = box.volume(), length = box.sizes().maxCoeff();
   }
   return length;
 }
@@ -147,19 +154,20 @@ double length_of(const ArrangedPlane& p) {
 void find_equal_lengths(const std::vector<int>& planes, double tolerance, Arrangement& result) {
   std::vector<std::pair<double, int>> lengths;
   for (const int p : planes)
-    if (const double length = length_of(result.planes[p]); length > 4 * tolerance) lengths.emplace_back(length, p);
+    if (const double length = length_of(result.planes[p]); length > kSmallest * result.scale) lengths.emplace_back(length, p);
   std::sort(lengths.begin(), lengths.end());
-  // Of lengths that are anything up to the longest, others are as alike as these so often.
-  const auto by_chance = [&](std::size_t count) {
-    const double others = static_cast<double>(lengths.size() - 1) * std::min(1.0, 2 * tolerance / lengths.back().first);
+  // If lengths from half to twice as long are any, others are as alike as these so often.
+  const auto by_chance = [&](double length, std::size_t count) {
+    const auto near = static_cast<double>(std::count_if(lengths.begin(), lengths.end(), [&](const auto& l) { return l.first > 0.5 * length && l.first < 2.0 * length; }));
+    const double others = (near - 1.0) * std::min(1.0, 2 * tolerance / (1.5 * length));
     double term = std::exp(-others), fewer = 0;  // Poisson
     for (std::size_t k = 0; k + 1 < count; ++k) fewer += term, term *= others / static_cast<double>(k + 1);
-    return static_cast<double>(lengths.size()) * (1.0 - fewer) > kByChance * static_cast<double>(count);
+    return near * (1.0 - fewer) > kByChance;
   };
   for (std::size_t first = 0; first < lengths.size();) {
     std::size_t end = first + 1;
     while (end < lengths.size() && lengths[end].first - lengths[first].first < 2 * tolerance) ++end;
-    if (end - first >= 3 && !by_chance(end - first)) {
+    if (end - first >= 3 && !by_chance(lengths[first].first, end - first)) {
       EqualLength e;
       double sum = 0, squares = 0;
       for (std::size_t i = first; i < end; ++i) {
@@ -178,11 +186,11 @@ void find_equal_lengths(const std::vector<int>& planes, double tolerance, Arrang
 
 }  // namespace
 
-void find_second_order(Arrangement& result) {
+void find_second_order(Arrangement& result, double rounding) {
   if (result.planes.empty()) return;
   std::vector<std::vector<int>> of_direction(result.directions.size());
   for (std::size_t p = 0; p < result.planes.size(); ++p) of_direction[result.planes[p].direction].push_back(static_cast<int>(p));
-  const double tolerance = step_tolerance(result);
+  const double tolerance = step_tolerance(result, rounding);
   const std::optional<int> flat = flat_axis(result);
   for (std::size_t d = 0; d < of_direction.size(); ++d) {
     std::vector<int> planes = of_direction[d];
@@ -205,7 +213,7 @@ void find_second_order(Arrangement& result) {
     }
     find_steps(levels, tolerance, result);
     find_rows(levels, tolerance, result);
-    find_equal_lengths(planes, kStepTolerance * result.scale, result);
+    find_equal_lengths(planes, kAlike * result.scale, result);
     std::vector<Extent> extents;
     for (const int p : planes) extents.push_back(extent_of(result.planes[p], u, v));
     for (std::size_t i = 0; i < planes.size(); ++i)

@@ -88,7 +88,7 @@ double variance_about(const Patch& patch, const Vec3& axis, double variance_u, d
 double shown_doubt(const Patches& patches, const Selection& s, const std::vector<Vec3>& locals) {
   std::vector<std::vector<std::pair<const Patch*, int>>> members(s.frames.size());
   for (std::size_t j = 0; j < patches.patches.size(); ++j)
-    members[static_cast<std::size_t>(s.frame_of_patch[j])].emplace_back(&patches.patches[j], s.local_of_patch[j]);
+    if (!patches.patches[j].bowed) members[static_cast<std::size_t>(s.frame_of_patch[j])].emplace_back(&patches.patches[j], s.local_of_patch[j]);
   std::vector<std::pair<double, double>> squares;  // of tilts, over what they would be at the systematic doubt; the patch's area
   for (std::size_t f = 0; f < s.frames.size(); ++f)
     if (members[f].size() >= kFewestMembers) add_squares(s.frames[f], locals, members[f], squares);

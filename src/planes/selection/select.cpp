@@ -142,13 +142,6 @@ void keep_used(const Patches& patches, const std::vector<int>& members, const Ro
   }
 }
 
-/// Gives a patch a frame of its own.
-void keep_local_fit(const Patches& patches, std::size_t j, const Space& space, Selection& s) {
-  s.frame_of_patch[j] = static_cast<int>(s.frames.size());
-  s.local_of_patch[j] = 0;
-  s.frames.push_back(open_frame(patches.patches[j].fit.normal, space));
-}
-
 }  // namespace
 
 OrientationFrame refit_frame(const OrientationFrame& frame, const std::vector<Vec3>& locals,
@@ -186,7 +179,11 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
 
   if (lambda == 1.0) {
     s.local_fits = true;
-    for (std::size_t j = 0; j < patches.patches.size(); ++j) keep_local_fit(patches, j, space, s);
+    for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+      s.frames.push_back(open_frame(patches.patches[j].fit.normal, space));
+      s.frame_of_patch[j] = static_cast<int>(j);
+      s.local_of_patch[j] = 0;
+    }
     return s;
   }
   const auto started = std::chrono::steady_clock::now();
@@ -211,8 +208,6 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
     keep_used(patches, members, round, fixed, locals, patch_angle, s);
     if (options.solver != "exact") s.unbounded.emplace_back(std::move(round.problem), energy);
   }
-  for (std::size_t j = 0; j < patches.patches.size(); ++j)
-    if (patches.patches[j].bowed) keep_local_fit(patches, j, space, s);
   return s;
 }
 

@@ -40,7 +40,8 @@ void add_dominant_frame(const Patches& patches, const std::vector<Vec3>& locals,
         for (const Offered& o : suited_by(proposed[k], patches, locals, patch_angle)) areas[k] += patches.patches[o.patch].area;
   });
   double all = 0;
-  for (const Patch& patch : patches.patches) all += patch.area;
+  for (const Patch& patch : patches.patches)
+    if (!patch.bowed) all += patch.area;
   const auto largest = std::max_element(areas.begin(), areas.end());
   if (largest == areas.end() || *largest < kDominant * all) return;
   OrientationFrame frame = proposed[largest - areas.begin()];
@@ -101,6 +102,12 @@ void share_out(const Patches& patches, const AngleSet& angles, const Space& spac
   const double patch_angle = radians(options.patch_angle);
   if (s.frames.size() > 1 && !space.is_2d()) add_dominant_frame(patches, locals, patch_angle, context, s);
   give_to_largest(patches, locals, patch_angle, space, s);
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) {
+    if (!patches.patches[j].bowed) continue;
+    s.frame_of_patch[j] = static_cast<int>(s.frames.size());
+    s.local_of_patch[j] = 0;
+    s.frames.push_back(open_frame(patches.patches[j].fit.normal, space));
+  }
 }
 
 }  // namespace unseen::planes
