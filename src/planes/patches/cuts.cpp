@@ -8,6 +8,7 @@
 #include <numeric>
 #include <span>
 
+#include "planes/patches/facets.h"
 #include "planes/patches/islands.h"
 
 namespace unseen::planes {
@@ -25,11 +26,6 @@ constexpr int kSlices = 12;
 constexpr int kFiner = 4;                // times as many, of what is bent or stepped more often than that
 constexpr int kShift = 3;                // of these, from one window to the next
 constexpr double kSteppedGain = 0.4;     // there, of steps
-
-double squared_error(const Moments& m, const Space& space) {
-  const PlaneFit fit = fit_plane(m, space);
-  return fit.rms * fit.rms * m.count;
-}
 
 /// A region in slices of equal thickness along an axis.
 struct Slices {
@@ -180,6 +176,11 @@ Cut best_within(const std::vector<Moments>& slice, const VoxelGrid& grid, const 
 
 }  // namespace
 
+double squared_error(const Moments& m, const Space& space) {
+  const PlaneFit fit = fit_plane(m, space);
+  return fit.rms * fit.rms * m.count;
+}
+
 CellSets best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
   const Moments whole = sum_of(grid, region);
   const PlaneFit fit = fit_plane(whole, space);
@@ -203,6 +204,7 @@ CellSets best_cut(const VoxelGrid& grid, const Space& space, const std::vector<i
   if (large && !space.is_2d())
     if (Islands islands = islands_in(grid, region, whole, fit); !islands.pieces.empty() && islands.error < best.error) return std::move(islands.pieces);
   if (of_best == nullptr && large && !space.is_2d()) {
+    if (Facets facets = facets_in(grid, region, whole, fit); !facets.pieces.empty()) return std::move(facets.pieces);
     best = {};
     bool too_many = false;
     for (const Slices& along : slices) {

@@ -36,6 +36,9 @@ struct Patches {
 
 Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells);
 
+/// Of points to their own plane, m².
+double squared_error(const Moments& m, const Space& space);
+
 /// Those of a set of voxels that lie on its plane, without what stands on it or hangs over it.
 std::vector<int> core_of(const VoxelGrid& grid, const Space& space, const std::vector<int>& cells);
 
