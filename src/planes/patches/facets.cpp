@@ -2,29 +2,33 @@
 // Copyright (c) 2026 the unseen authors
 #include "planes/patches/facets.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace unseen::planes {
 namespace {
 
-constexpr int kSides[] = {16, 24, 32};         // blocks along either side of the region: the finer ones where facets are many
-constexpr double kFewestPoints = 12;         // in a block,
-constexpr std::size_t kFewestBlocks = 40;    // and blocks
-constexpr double kBent = 4.0;                // times the variance about the blocks' planes, or of rounding: what one plane leaves
-constexpr double kTurned = 0.02;              // rad: between facets, at least
-constexpr double kNear = 0.3;            // of that: how far blocks of a facet may face from it
-constexpr double kFewest = 0.06;             // of the points: in a facet's direction,
-constexpr double kMost = 0.6;                // and in those of all
+constexpr int kSides[] = {16, 24, 32};      // blocks along either side of the region: the finer ones where facets are many
+constexpr double kFewestPoints = 12;        // in a block,
+constexpr std::size_t kFewestBlocks = 40;   // and blocks;
+constexpr double kThin = 0.05;              // points in a line tell no slope across it
+constexpr double kBent = 4.0;               // times the variance about the blocks' planes, or of rounding: what one plane leaves
+constexpr double kTurned = 0.02;            // rad: between facets, at least
+constexpr double kNear = 0.3;               // of that: how far blocks of a facet may face from it
+constexpr double kFewest = 0.06;            // of the points: in a facet's direction,
+constexpr double kMost = 0.6;               // and in those of all
 constexpr std::size_t kMostDirections = 6, kMostFacets = 100;
-constexpr std::size_t kFewestOfFacet = 2;    // blocks
-constexpr double kLeftOver = 0.3;                // of the squared error that the facets leave
+constexpr std::size_t kFewestOfFacet = 2;   // blocks
+constexpr double kLeftOver = 0.3;           // of the squared error that the facets leave
 
 /// A square of a region, and which way it faces.
 struct Block {
   Moments sum;
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< against the region's plane, along its axes
+  double error = 0;                                 ///< m², squared, about its own plane
   bool known = false;
   int direction = -1, facet = -1;
 };
@@ -53,10 +57,12 @@ Blocks blocks_of(const VoxelGrid& grid, const std::vector<int>& region, const Pl
   }
   for (Block& b : blocks.at) {
     if (b.sum.count < kFewestPoints) continue;
-    const PlaneFit own = fit_plane(b.sum, {});
-    const double across = own.normal.dot(fit.normal);
-    if (!(own.spread_v > 0.0) || std::abs(across) < 0.9) continue;
-    b.slope = -Eigen::Vector2d(own.normal.dot(fit.u), own.normal.dot(fit.v)) / across;
+    const Vec3 along_u = b.sum.scatter * fit.u, along_v = b.sum.scatter * fit.v;
+    const double uu = fit.u.dot(along_u), uv = fit.v.dot(along_u), vv = fit.v.dot(along_v), uw = fit.normal.dot(along_u), vw = fit.normal.dot(along_v);
+    const double determinant = uu * vv - uv * uv;
+    if (!(determinant > kThin * uu * vv)) continue;
+    b.slope = Eigen::Vector2d(vv * uw - uv * vw, uu * vw - uv * uw) / determinant;
+    b.error = fit.normal.dot(b.sum.scatter * fit.normal) - b.slope.x() * uw - b.slope.y() * vw;
     b.known = true;
   }
   return blocks;
@@ -140,17 +146,19 @@ std::vector<int> share_voxels(const VoxelGrid& grid, const std::vector<int>& reg
   return of_voxel;
 }
 
-Facets facets_of(const VoxelGrid& grid, const std::vector<int>& region, const Moments& whole, const PlaneFit& fit, int side) {
+/// None if one plane leaves hardly more than the blocks' do.
+std::optional<Facets> facets_of(const VoxelGrid& grid, const std::vector<int>& region, const Moments& whole, const PlaneFit& fit, int side) {
   Blocks blocks = blocks_of(grid, region, fit, side);
   std::vector<Block*> known;
   double by_blocks = 0, count = 0;
   for (Block& b : blocks.at)
-    if (b.known) known.push_back(&b), by_blocks += squared_error(b.sum, {}), count += b.sum.count;
+    if (b.known) known.push_back(&b), by_blocks += b.error, count += b.sum.count;
   const double error = squared_error(whole, {});
   const double noise = std::max(by_blocks / count, grid.rounding * grid.rounding / 12.0);
-  if (known.size() < kFewestBlocks || error / whole.count < kBent * noise || !find_directions(known, count)) return {};
+  if (known.size() < kFewestBlocks || error / whole.count < kBent * noise) return std::nullopt;
+  if (!find_directions(known, count)) return Facets();
   const std::vector<Moments> facets = find_facets(blocks);
-  if (facets.size() < 2 || facets.size() > kMostFacets) return {};
+  if (facets.size() < 2 || facets.size() > kMostFacets) return Facets();
   const std::vector<int> facet_of_voxel = share_voxels(grid, region, blocks, facets);
   Facets result{CellSets(facets.size()), 0.0};
   std::vector<Moments> sums(facets.size());
@@ -165,8 +173,11 @@ Facets facets_of(const VoxelGrid& grid, const std::vector<int>& region, const Mo
 }  // namespace
 
 Facets facets_in(const VoxelGrid& grid, const std::vector<int>& region, const Moments& whole, const PlaneFit& fit) {
-  for (const int side : kSides)
-    if (Facets facets = facets_of(grid, region, whole, fit, side); !facets.pieces.empty()) return facets;
+  for (const int side : kSides) {
+    std::optional<Facets> facets = facets_of(grid, region, whole, fit, side);
+    if (!facets) break;
+    if (!facets->pieces.empty()) return *std::move(facets);
+  }
   return {};
 }
 
