@@ -146,5 +146,30 @@ TEST(FlightEnds, FramesInWhichABallIsHeldAreOfNoFlight) {
   }
 }
 
+// It is in the picture for longer, and as much of a disc.
+TEST(FlightEnds, ABallThatRollsByIsNotTheOneThatFlies) {
+  Shot shot;
+  shot.name = "shot";
+  shot.video = "film";
+  shot.bodies = {ball("ball", 0.03), {}};
+  shot.bodies[1].name = "floor";
+  shot.bodies[1].shape = Shape::fixed;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Random random(seed);
+    Candidates candidates(120);
+    for (int k = 0; k < 120; ++k) {
+      candidates[k] = {outline(k, 0, {100.0 + 8.0 * k, 420.0}, 60.0, {40, 60, 140}, random)};
+      const double falls = std::min(static_cast<double>(k), 40.4), rises = std::max(0.0, k - 40.4);
+      const double y = 0.5 * kGravity * falls * falls - 0.75 * kGravity * 40.4 * rises + 0.5 * kGravity * rises * rises;
+      if (k < 90) candidates[k].push_back(outline(k, 1, {640.0 + k, 80.0 + y}, 24.0, {200, 90, 40}, random));
+    }
+    Context context;
+    const Tracks tracks = find_chain(shot, camera(), candidates, 0, kFps, 0.5, context);
+    ASSERT_EQ(tracks.meetings.size(), 1u) << seed;
+    EXPECT_NEAR(tracks.meetings[0].time * kFps, 40.4, 0.2) << seed;
+    for (const TrackPoint& p : tracks.points) EXPECT_EQ(p.region, 1) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace unseen::collision::test

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision/tracks/arcs.h"
 #include "collision/tracks/chain_search.h"
 #include "collision/tracks/meetings.h"
+#include "collision/tracks/movers.h"
 #include "collision/tracks/one_flight.h"
 #include "collision/tracks/spans.h"
 #include "collision/tracks/time_gaps.h"
@@ -17,9 +17,6 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kMoves = 1.0;         // diameters that a flight covers at least, and
-constexpr double kMovesNoise = 8.0;    // σ
-constexpr double kSameLooks = 4.0;     // σ² between looks of one body
 constexpr double kAbsent = 9.0;        // σ², of a frame without the body
 constexpr double kFlown = 6.0;         // σ² that being on a flight is worth
 constexpr double kFar = 1.5;           // times the largest step within flights
@@ -28,46 +25,6 @@ constexpr int kBackFrames = 12;        // that the body may be out of sight in a
 constexpr double kGapFrames = 4.5;     // frame times between two flights that meet, at most, and
 constexpr double kGapSeconds = 0.4;
 constexpr double kBitten = 0.1;       // share: a part of a ball is not seen
-
-double extent(const Arc& arc) {
-  Vec2 low = arc.points.front().pixel, high = low;
-  for (const Candidate& c : arc.points) {
-    low = low.cwiseMin(c.pixel);
-    high = high.cwiseMax(c.pixel);
-  }
-  return (high - low).norm();
-}
-
-/// The arcs of the thing that flies most; the less a ball looks like a disc, as its shadow does, the less they are worth.
-std::vector<Arc> arcs_of_body(const std::vector<Arc>& arcs, double noise) {
-  std::vector<Arc> moving;
-  std::vector<Candidate> looks;
-  std::vector<double> worth;
-  for (const Arc& arc : arcs) {
-    const Candidate look = looks_of(arc);
-    const double far = extent(arc);
-    if (far < std::max(kMoves * look.diameter, kMovesNoise * noise)) continue;
-    moving.push_back(arc);
-    looks.push_back(look);
-    worth.push_back(look.round * (static_cast<double>(arc.points.size()) - 3.0) * std::min(1.0, far / std::max(1.0, 3.0 * look.diameter)));
-  }
-  double most = 0.0;
-  std::vector<Arc> best;
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    double sum = 0.0;
-    std::vector<Arc> alike;
-    for (std::size_t j = 0; j < moving.size(); ++j)
-      if (unlikeness(looks[i], looks[j]) < kSameLooks) {
-        sum += worth[j];
-        alike.push_back(moving[j]);
-      }
-    if (sum > most) {
-      most = sum;
-      best = std::move(alike);
-    }
-  }
-  return best;
-}
 
 /// One candidate a frame, or none: least unlike the body, in steps that it can take, on its flights where there are some (Viterbi).
 std::vector<Candidate> follow(const Candidates& candidates, const std::vector<Arc>& arcs, double noise, double fps) {
@@ -225,18 +182,23 @@ Tracks with_returns(const Shot& shot, const ShotCamera& camera, const Flown& flo
   return tracks;
 }
 
-}  // namespace
-
-Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, int body, double fps, double least_noise, Context& context) {
-  const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
-  const std::vector<Arc> arcs = arcs_of_body(find_arcs(candidates, noise, jitter, context), noise);
-  if (arcs.empty()) return {};
+/// Flights of the thing that has these arcs; none if it does not fly.
+Tracks flights_of(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, const std::vector<Arc>& arcs, int body, double fps, double noise, Context& context) {
   std::vector<Candidate> track = follow(candidates, arcs, noise, fps);
   if (!shot.video.empty() && shot.bodies[static_cast<std::size_t>(body)].shape == Shape::sphere) track = without_odd_sizes(track, kBitten);
   const Flown flown = flights_in_picture(shot, track, body, noise, fps, context);
   if (!flown.tracks.meetings.empty()) return with_returns(shot, camera, flown, body, fps, noise, context);
   if (shot.video.empty()) return flown.tracks;
   return search_return(shot, camera, track, body, fps, noise, context).value_or(flown.tracks);
+}
+
+}  // namespace
+
+Tracks find_chain(const Shot& shot, const ShotCamera& camera, const Candidates& candidates, int body, double fps, double least_noise, Context& context) {
+  const double jitter = estimate_noise(candidates, least_noise), noise = silhouette_noise(shot, candidates, jitter, context);
+  for (const std::vector<Arc>& arcs : arcs_by_mover(find_arcs(candidates, noise, jitter, context), noise))
+    if (Tracks tracks = flights_of(shot, camera, candidates, arcs, body, fps, noise, context); !tracks.spans.empty()) return tracks;
+  return {};
 }
 
 }  // namespace unseen::collision
