@@ -80,7 +80,8 @@ TEST(FlightEnds, AnOutlineOfBothDoesNotLeadFromOneBodyToTheOther) {
       const Mover& mover = tracks.points[span.begin].region == 0 ? kBlueBall : kRedBall;
       for (std::size_t i = span.begin; i < span.end; ++i) EXPECT_LT((tracks.points[i].pixel - mover.at(tracks.points[i].frame)).norm(), 2.0) << seed << ", frame " << tracks.points[i].frame;
       for (const FlightSpan& other : tracks.spans) {
-        if (other.body == span.body) EXPECT_EQ(tracks.points[other.begin].region, tracks.points[span.begin].region) << seed;
+        if (other.body != span.body) continue;
+        EXPECT_EQ(tracks.points[other.begin].region, tracks.points[span.begin].region) << seed;
       }
     }
   }

@@ -326,7 +326,9 @@ TEST(Desks, AreLevelWithTheGroundAndMakeNoDebrisOfBoxesAsHighAsThey) {
   EXPECT_EQ(completion.cuboids.size(), 2u);
   EXPECT_GE(completion.supports.size(), 3u);
   for (const Support& s : completion.supports)
-    if (s.kind == SupportKind::desk) EXPECT_LT(degrees(line_angle(s.plane.normal, completion.supports[0].plane.normal)), 0.01);
+    if (s.kind == SupportKind::desk) {
+      EXPECT_LT(degrees(line_angle(s.plane.normal, completion.supports[0].plane.normal)), 0.01);
+    }
 }
 
 TEST(Desks, MakeNoDebrisOfBoxesBesideThemWhoseTopsAreAsHigh) {

@@ -317,7 +317,9 @@ TEST(Askew, ACabinetAlongTheWallsStaysSoBesideOthersThatAreNot) {
   boxes.normal.resize(6);
   EXPECT_LT(errors_of(boxes, r).back(), 0.03);
   for (const ArrangedPlane& p : r.result.planes)
-    if (p.area > 10) EXPECT_GT(p.plane.normal.cwiseAbs().maxCoeff(), std::cos(radians(0.03))) << p.plane.normal.transpose();
+    if (p.area > 10) {
+      EXPECT_GT(p.plane.normal.cwiseAbs().maxCoeff(), std::cos(radians(0.03))) << p.plane.normal.transpose();
+    }
 }
 
 /// What stands askew by less than walls of buildings usually do is kept where a scene's own walls do better.

@@ -3,6 +3,7 @@
 // Patches of curved surfaces: each is bent as the turn to its neighbour asks for, where planes are flat up to the edge between them.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/linear.h"
@@ -11,7 +12,8 @@
 namespace unseen::planes {
 namespace {
 
-constexpr std::size_t kFewestVoxels = 8;
+constexpr std::size_t kFewestVoxels = 8;      // that tell a bend,
+constexpr double kFewestOfBend = 12.0;         // and points
 constexpr double kLeastTurn = 3.0 * kPi / 180.0, kMostTurn = 75.0 * kPi / 180.0;  // between strips of one surface
 constexpr double kAcross = 5.0 * kPi / 180.0;  // by which one turns at its ends against its middle, at least: a wall that bulges turns by less
 constexpr double kLikelier = 6.0, kHardly = 1.0;  // the log likelihood of bent against flat that is asked for; beside a bowed patch
@@ -55,7 +57,7 @@ Bend bend_of(const VoxelGrid& grid, const Patch& patch, double least_noise) {
     squares += m.count * off * off + fit.normal.dot(m.scatter * fit.normal);
     count += m.count;
   }
-  if (count < 12.0) return bend;
+  if (count < kFewestOfBend) return bend;
   const Six x = solve_symmetric<6>(normal, right);
   const double variance = kCorrelated * std::max((squares - x.dot(right)) / (count - 6.0), least_noise * least_noise);
   for (int k = 0; k < 3; ++k) bend.covariance.col(k) = variance / std::pow(unit, 4) * solve_symmetric<6>(normal, Six::Unit(3 + k)).tail<3>();
@@ -71,18 +73,20 @@ struct Turn {
   double bend;              ///< 1/m, along that
 };
 
-bool find_turn(const Patch& patch, const Patch& other, Turn& turn) {
+/// None where the two cannot be of one, or where that would turn the patch too little to tell.
+std::optional<Turn> turn_to(const Patch& other, const Patch& patch) {
   const double angle = line_angle(patch.fit.normal, other.fit.normal);
-  if (angle < kLeastTurn || angle > kMostTurn) return false;
+  if (angle < kLeastTurn || angle > kMostTurn) return std::nullopt;
+  Turn turn;
   const Vec3 apart = other.moments.mean - patch.moments.mean;
   turn.towards = {apart.dot(patch.fit.u), apart.dot(patch.fit.v)};
-  if (!(turn.towards.norm() > 0.0)) return false;
+  if (!(turn.towards.norm() > 0.0)) return std::nullopt;
   turn.towards.normalize();
   const Vec3 e = turn.towards.x() * patch.fit.u + turn.towards.y() * patch.fit.v;
   const double across = patch.fit.normal.dot(other.fit.normal), side = across < 0.0 ? -1.0 : 1.0;
   turn.bend = std::atan2(-side * other.fit.normal.dot(e), std::abs(across)) / apart.norm();
   const double half = kHalf * std::hypot(turn.towards.x() * patch.fit.spread_u, turn.towards.y() * patch.fit.spread_v);
-  return std::abs(turn.bend) * half > kAcross;
+  return std::abs(turn.bend) * half > kAcross ? std::optional(turn) : std::nullopt;
 }
 
 /// The log likelihood that a patch is bent as a turn asks for, against flat.
@@ -104,11 +108,11 @@ void mark_bowed(const VoxelGrid& grid, const Context& context, Patches& patches)
   parallel_blocks(context, count, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j)
       for (const int other : beside[j]) {
-        Turn turn;
-        if (!find_turn(patches.patches[j], patches.patches[other], turn)) continue;
+        const std::optional<Turn> turn = turn_to(patches.patches[other], patches.patches[j]);
+        if (!turn) continue;
         if (!bends[j].known) bends[j] = bend_of(grid, patches.patches[j], least_noise);
         if (!bends[j].known) break;
-        if (likelier_bent(bends[j], turn) > kLikelier) bowed[j] = 1;
+        if (likelier_bent(bends[j], *turn) > kLikelier) bowed[j] = 1;
       }
   });
   for (int round = 0; round < kRounds; ++round) {
@@ -116,11 +120,12 @@ void mark_bowed(const VoxelGrid& grid, const Context& context, Patches& patches)
     for (std::size_t j = 0; j < count; ++j) {
       int around = 0;
       for (const int other : beside[j]) {
-        Turn turn;
-        if (before[other] == 0 || !find_turn(patches.patches[j], patches.patches[other], turn)) continue;
+        if (before[other] == 0) continue;
+        const std::optional<Turn> turn = turn_to(patches.patches[other], patches.patches[j]);
+        if (!turn) continue;
         if (!bends[j].known) ++around;
-        else if (likelier_bent(bends[j], turn) > kHardly) around += 2;
-        else around += std::pow(bends[j].along(turn.towards) - turn.bend, 2) < kFlat * kFlat * bends[j].variance_along(turn.towards);
+        else if (likelier_bent(bends[j], *turn) > kHardly) around += 2;
+        else around += std::pow(bends[j].along(turn->towards) - turn->bend, 2) < kFlat * kFlat * bends[j].variance_along(turn->towards);
       }
       if (around > 1) bowed[j] = 1;
     }
