@@ -121,15 +121,20 @@ TEST(FlightEnds, AnOutlineBesideAnotherOrFarFromItIsOfOne) {
   EXPECT_FALSE(is_both(told, small, candidates));
 }
 
-// A quarter of what a ball falls in four frames is less than the noise that its outline may have at most.
-TEST(FlightEnds, FramesInWhichABallIsHeldAreOfNoFlight) {
-  constexpr int kDropped = 30;
+Shot film_of_a_bounce() {
   Shot shot;
   shot.name = "shot";
   shot.video = "film";
   shot.bodies = {ball("ball", 0.03), {}};
   shot.bodies[1].name = "floor";
   shot.bodies[1].shape = Shape::fixed;
+  return shot;
+}
+
+// A quarter of what a ball falls in four frames is less than the noise that its outline may have at most.
+TEST(FlightEnds, FramesInWhichABallIsHeldAreOfNoFlight) {
+  constexpr int kDropped = 30;
+  const Shot shot = film_of_a_bounce();
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Random random(seed);
     Candidates candidates(120);
@@ -149,12 +154,7 @@ TEST(FlightEnds, FramesInWhichABallIsHeldAreOfNoFlight) {
 
 // It is in the picture for longer, and as much of a disc.
 TEST(FlightEnds, ABallThatRollsByIsNotTheOneThatFlies) {
-  Shot shot;
-  shot.name = "shot";
-  shot.video = "film";
-  shot.bodies = {ball("ball", 0.03), {}};
-  shot.bodies[1].name = "floor";
-  shot.bodies[1].shape = Shape::fixed;
+  const Shot shot = film_of_a_bounce();
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     Random random(seed);
     Candidates candidates(120);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "planes/result/describe.h"
 #include "unseen/core/random.h"
@@ -25,6 +26,14 @@ Arrangement parallel(const std::vector<double>& offsets, double noise = 0.00625,
   }
   find_second_order(a, rounding);
   return a;
+}
+
+/// Thirty values drawn at random, and one `far` beyond all of them if asked for.
+std::vector<double> drawn(double low, double high, std::optional<double> far, Random& random) {
+  std::vector<double> values;
+  for (int i = 0; i < 30; ++i) values.push_back(random.uniform(low, high));
+  if (far) values.push_back(*far);
+  return values;
 }
 
 TEST(EqualSteps, OfAStairAreOneRun) {
@@ -65,15 +74,10 @@ TEST(EqualSteps, AreNoneThatTheNoiseTellsApart) {
 
 TEST(EqualSteps, OfThreePlanesAreNoneAmongMany) {
   Random random(2);
-  for (const bool far : {false, true}) {
-    int found = 0;
-    for (int k = 0; k < 200; ++k) {
-      std::vector<double> offsets;
-      for (int i = 0; i < 30; ++i) offsets.push_back(random.uniform(0.0, 4.0));
-      if (far) offsets.push_back(100.0);
-      found += static_cast<int>(parallel(offsets, 0.004).spacing.size());
-    }
-    EXPECT_LT(found, 20) << far;  // there are three or so each time
+  for (const std::optional<double> far : {std::optional<double>(), std::optional(100.0)}) {
+    std::size_t found = 0;
+    for (int k = 0; k < 200; ++k) found += parallel(drawn(0.0, 4.0, far, random), 0.004).spacing.size();
+    EXPECT_LT(found, 20u) << far.has_value();  // there are three or so each time
   }
 }
 
@@ -107,29 +111,20 @@ TEST(EqualLengths, AreThoseOfThePlanesHoweverTheyAreTurned) {
 
 TEST(EqualLengths, AreNoneAmongManyByChance) {
   Random random(4);
-  for (const bool floor : {false, true}) {
-    int found = 0;
-    for (int k = 0; k < 50; ++k) {
-      std::vector<double> lengths;
-      for (int i = 0; i < 30; ++i) lengths.push_back(random.uniform(0.7, 1.4));
-      if (floor) lengths.push_back(20.0);
-      found += static_cast<int>(level(lengths, random).equal_lengths.size());
-    }
-    EXPECT_LT(found, 25) << floor;  // there are three or four each time
+  for (const std::optional<double> floor : {std::optional<double>(), std::optional(20.0)}) {
+    std::size_t found = 0;
+    for (int k = 0; k < 50; ++k) found += level(drawn(0.7, 1.4, floor, random), random).equal_lengths.size();
+    EXPECT_LT(found, 25u) << floor.has_value();  // there are three or four each time
   }
 }
 
 TEST(EqualSteps, AreHardlyFoundByChance) {  // rows of four are, two hundred times here
   Random random(1);
-  for (const bool far : {false, true}) {
+  for (const std::optional<double> far : {std::optional<double>(), std::optional(100.0)}) {
     int found = 0;
-    for (int k = 0; k < 400; ++k) {
-      std::vector<double> offsets;
-      for (int i = 0; i < 30; ++i) offsets.push_back(random.uniform(0.0, 10.0));
-      if (far) offsets.push_back(100.0);
-      for (const Spacing& s : parallel(offsets).spacing) found += s.planes.size() > 3;
-    }
-    EXPECT_LT(found, 20) << far;
+    for (int k = 0; k < 400; ++k)
+      for (const Spacing& s : parallel(drawn(0.0, 10.0, far, random)).spacing) found += s.planes.size() > 3;
+    EXPECT_LT(found, 20) << far.has_value();
   }
 }
 
