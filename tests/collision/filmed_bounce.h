@@ -19,6 +19,7 @@ struct View {
   Vec3 start, velocity;
   double tilt = 0;             ///< of the floor, about the viewing direction
   int bounces = 1, frames = 55;
+  double fps = 60, size_noise = 0.02;  ///< share
 };
 
 inline Mat3 world_to_camera(const View& view) {
@@ -41,10 +42,10 @@ inline Shot ball_and(const std::string& fixed, double radius, double fps, double
   return shot;
 }
 
-/// Sightings at 60 pictures a second, each off by 0.3 px, of a ball without friction; the vertical is not told.
+/// Sightings, each off by 0.3 px, of a ball without friction; the vertical is not told.
 inline Shot filmed(const View& view, int seed) {
-  constexpr double kFps = 60.0, kNoise = 0.3;
-  Shot shot = ball_and("floor", kBallRadius, kFps, 1108.5);
+  constexpr double kNoise = 0.3;
+  Shot shot = ball_and("floor", kBallRadius, view.fps, 1108.5);
   const Mat3 R = world_to_camera(view);
   const Vec3 n = Eigen::AngleAxisd(radians(view.tilt), Vec3::UnitY()) * Vec3::UnitZ(), g(0, 0, -kGravity);
   Random random(static_cast<std::uint64_t>(seed));
@@ -52,7 +53,7 @@ inline Shot filmed(const View& view, int seed) {
   double since = 0.0;  // s, of p and v
   int left = view.bounces;
   for (int frame = 0; frame < view.frames; ++frame) {
-    double t = frame / kFps - since;
+    double t = frame / view.fps - since;
     const double height = n.dot(p) - kBallRadius, speed = n.dot(v), pull = n.dot(g);
     const double hit = (-speed - std::sqrt(std::max(0.0, speed * speed - 2.0 * pull * height))) / pull;
     if (left > 0 && t > hit) {
@@ -63,7 +64,7 @@ inline Shot filmed(const View& view, int seed) {
     }
     const Vec3 seen = R * (p + t * v + 0.5 * t * t * g - view.camera);
     const Vec2 pixel = shot.camera.camera.project(seen) + kNoise * Vec2(random.normal(), random.normal());
-    const double radius = shot.camera.camera.fx * kBallRadius / seen.z() * (1.0 + 0.02 * random.normal());
+    const double radius = shot.camera.camera.fx * kBallRadius / seen.z() * (1.0 + view.size_noise * random.normal());
     if (pixel.x() > 0 && pixel.x() < 1280 && pixel.y() > 0 && pixel.y() < 720) shot.observations.push_back({frame, pixel, radius, 0});
   }
   return shot;

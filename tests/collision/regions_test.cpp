@@ -194,6 +194,26 @@ TEST(Regions, ABodyThatLingersLeavesNoGhost) {
     for (const Region& r : footage.regions[k]) EXPECT_TRUE((r.centroid - place(k)).norm() < 2.0 || r.area < 60.0) << k;
 }
 
+/// Between its white and its black the wall is the median; most frames are far off that, but they are no noise.
+TEST(Regions, ASpottedBodyThatLingersIsSeenWhole) {
+  const Scratch scratch("spotted");
+  const std::string path = scratch.file("spotted.avi");
+  const cv::Mat background = wall();
+  const auto place = [](int k) { return Vec2(160.0 + 1.4 * (k - 30), 60.0 + 0.06 * (k - 30) * (k - 30)); };
+  Random random(3);
+  write_video(path, 60, [&](int k) {
+    cv::Mat frame = background.clone();
+    const Vec2 center = place(k);
+    draw_disc(frame, center, 26.0, cv::Scalar(230, 230, 230));
+    for (int spot = 0; spot < 5; ++spot) draw_disc(frame, center + 14.0 * Vec2(std::cos(0.2 * k + 1.2566 * spot), std::sin(0.2 * k + 1.2566 * spot)), 9.5, cv::Scalar(25, 25, 25));
+    add_noise(frame, 2.0, random);
+    return frame;
+  });
+  Context context;
+  const Footage footage = find_regions(shot_of(path), context);
+  EXPECT_LT(worst_error(footage, 1, 58, place), 1.5);
+}
+
 TEST(Regions, AShadowIsCutOffOrMarked) {
   const Scratch scratch("shadow");
   const std::string path = scratch.file("shadow.avi");

@@ -21,13 +21,21 @@ struct Range {
   std::size_t begin, end;
 };
 
-/// Whether the sizes of a body say that it comes nearer on one side of a meeting and goes away on the other.
-bool returns(const Shot& shot, const ShotCamera& camera, const Tracks& tracks, const Tracks::Meeting& meeting) {
+/// Whether the sizes of a body say that it comes nearer on one side of a meeting and goes away on the other, in its flights or their halves by the meeting:
+/// what rises from a floor below the camera falls back to it.
+bool returns(const Shot& shot, const ShotCamera& camera, Tracks tracks, const Tracks::Meeting& meeting) {
   constexpr double kClear = 3.0;  // σ
-  const Problem problem = problem_of(shot, Options{}, camera, {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)}, tracks, meeting);
-  if (problem.trends.size() != 2) return false;
-  const SizeTrend &one = problem.trends[0], &other = problem.trends[1];
-  return one.change * other.change < 0.0 && std::min(std::abs(one.change) / one.sigma, std::abs(other.change) / other.sigma) > kClear;
+  FlightSpan &before = tracks.spans[static_cast<std::size_t>(meeting.before[0])], &after = tracks.spans[static_cast<std::size_t>(meeting.after[0])];
+  const auto turn = [&] {
+    const Problem problem = problem_of(shot, Options{}, camera, {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)}, tracks, meeting);
+    if (problem.trends.size() != 2) return false;
+    const SizeTrend &one = problem.trends[0], &other = problem.trends[1];
+    return one.change * other.change < 0.0 && std::min(std::abs(one.change) / one.sigma, std::abs(other.change) / other.sigma) > kClear;
+  };
+  if (turn()) return true;
+  before.begin = (before.begin + before.end) / 2;
+  after.end = (after.begin + after.end) / 2;
+  return turn();
 }
 
 /// Flights that follow each other within `step` sightings meet where both explain theirs best.
@@ -110,6 +118,17 @@ Chain settled_chain(Flights& flights, const std::vector<Candidate>& seen, double
   return best;
 }
 
+/// The same sightings with down as one flight of them all says (a wrong down bends flights, which an impact would explain), and as cameras that look down have it.
+std::vector<Flights> other_ways_down(const Flights& level, const std::vector<Candidate>& seen, double fps) {
+  std::vector<Flights> ways(level.knows_down() ? 1 : 3, level);
+  ways[0].settle_down([&] { return ways[0].cost({seen}, 0, seen.size(), std::nullopt, fps); });
+  if (ways.size() == 3) {
+    ways[1].set_down(Vec3(0, 1, 1).normalized());
+    ways[2].set_down(Vec3::UnitZ());
+  }
+  return ways;
+}
+
 /// What lies, rolls or is held moves straight in the picture, as a flight of a few frames seems to.
 void leave_out_what_does_not_fall(const Shot& shot, const ShotCamera& camera, const Flights& flights, const std::vector<Candidate>& seen, double noise, double fps,
                                   std::vector<Range>& spans) {
@@ -129,10 +148,10 @@ void leave_out_what_does_not_fall(const Shot& shot, const ShotCamera& camera, co
 std::optional<Tracks> search_chain(const Shot& shot, const ShotCamera& camera, std::vector<Candidate> seen, int body, double fps, double noise, Context& context) {
   if (seen.size() < 2 * kFewestSeen || seen.size() > kMost) return std::nullopt;
   for (Candidate& c : seen) c.body = body;
-  Flights flights(shot, camera, noise), still = flights;
-  still.settle_down([&] { return still.cost({seen}, 0, seen.size(), std::nullopt, fps); });  // a wrong down bends flights, which an impact would explain
+  Flights flights(shot, camera, noise);
   Chain chain = settled_chain(flights, seen, fps, context);
-  if (Chain other = settled_chain(still, seen, fps, context); other.cost < chain.cost) chain = std::move(other), flights = still;
+  for (Flights& other_way : other_ways_down(Flights(shot, camera, noise), seen, fps))
+    if (Chain other = settled_chain(other_way, seen, fps, context); other.cost < chain.cost) chain = std::move(other), flights = other_way;
   std::vector<Range>& spans = chain.flights;
   leave_out_what_does_not_fall(shot, camera, flights, seen, noise, fps, spans);
   Tracks tracks;

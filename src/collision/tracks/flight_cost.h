@@ -27,6 +27,10 @@ class Flights {
   /// ½ χ² (robust) of sightings `[begin, end)` of each body about flights that change at frame time `u`; without `u` nothing changes.
   std::optional<double> cost(const std::vector<std::vector<Candidate>>& bodies, std::size_t begin, std::size_t end, std::optional<double> u, double fps) const;
 
+  /// Whether the shot tells which way is down.
+  bool knows_down() const { return given_; }
+  void set_down(const Vec3& down) { shot_.down = down; }
+
   /// ½ χ² of down, which is near the picture's where the shot does not give it.
   double cost_of_down() const;
 

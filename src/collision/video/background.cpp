@@ -9,6 +9,7 @@
 
 #include "collision/video/lasting.h"
 #include "collision/video/resting.h"
+#include "collision/video/worst_channel.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
@@ -63,10 +64,8 @@ cv::Mat median_picture(const std::vector<cv::Mat>& frames, cv::Mat* deviation, c
 
 /// σ of a pixel's worst channel from the median absolute deviations.
 cv::Mat noise_of(const cv::Mat& deviation) {
-  std::vector<cv::Mat> channels;
-  cv::split(deviation, channels);
-  cv::Mat worst = cv::max(cv::max(channels[0], channels[1]), channels[2]), noise;
-  worst.convertTo(noise, CV_32F, 1.4826);
+  cv::Mat noise;
+  worst_channel(deviation).convertTo(noise, CV_32F, 1.4826);
   cv::blur(noise, noise, {5, 5});
   return cv::max(noise, kLeastNoise);
 }

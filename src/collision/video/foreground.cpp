@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "collision/video/shadow.h"
+#include "collision/video/worst_channel.h"
 
 namespace unseen::collision {
 namespace {
@@ -24,11 +25,7 @@ constexpr int kContrastReach = 9;              // px, window of the local contra
 
 /// Largest difference of the three channels, smoothed.
 cv::Mat difference(const cv::Mat& frame, const cv::Mat& background) {
-  cv::Mat d, worst;
-  cv::absdiff(frame, background, d);
-  std::vector<cv::Mat> channels;
-  cv::split(d, channels);
-  worst = cv::max(cv::max(channels[0], channels[1]), channels[2]);
+  cv::Mat worst = worst_difference(frame, background);
   cv::blur(worst, worst, {3, 3});
   return worst;
 }

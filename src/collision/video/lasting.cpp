@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/video/worst_channel.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
@@ -19,6 +20,7 @@ constexpr double kSpread = 0.1;      // of the clip, added to the spread in time
 constexpr int kThick = 5;            // px: less is no body
 constexpr double kPlainer = 0.82;    // of the median's total variation
 constexpr int kOff = 6;              // grey levels: less is no ghost
+constexpr int kPasses = 3;           // that something passes, at most: what flickers or sways departs more often
 constexpr int kAround = 15;          // px, about a ghost, where bodies linger too
 constexpr double kClearly = 1.2;     // times the median's score
 constexpr double kLit = 0.3;         // of the score of a colour that could be its shadow, which the lit one needs
@@ -39,10 +41,10 @@ struct Column {
   cv::Vec3b at(std::size_t k) const { return {blue[k], green[k], red[k]}; }
 };
 
-/// Which frames agree with a colour: their number, and their score by number and spread in time.
+/// Which frames agree with a colour: their number, how often others come between them, and their score by number and spread in time.
 struct Agreement {
   std::vector<unsigned char> with;
-  int count = 0;
+  int count = 0, departures = 0;
   double score = 0;
 
   explicit Agreement(std::size_t size) : with(size) {}
@@ -52,10 +54,11 @@ struct Agreement {
       with[k] = static_cast<unsigned char>((std::abs(column.blue[k] - color[0]) <= reach) & (std::abs(column.green[k] - color[1]) <= reach) &
                                            (std::abs(column.red[k] - color[2]) <= reach));
     int sum = 0, squares = 0;
-    count = 0;
+    count = departures = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const int i = static_cast<int>(k), w = with[k];
       count += w, sum += w * i, squares += w * i * i;
+      departures += k > 0 && with[k - 1] && !w;
     }
     const double c = std::max(1, count), mean = sum / c;
     score = count * (kSpread + std::sqrt(std::max(0.0, squares / c - mean * mean)) / static_cast<double>(n));
@@ -124,11 +127,7 @@ double total_variation(const cv::Mat& noisy, const cv::Mat& mask) {
 /// shake or drift are unsettled too, and get rougher.
 cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
   const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kThick, kThick});
-  cv::Mat off, labels, stats, centers;
-  cv::absdiff(lasting, median, off);
-  std::vector<cv::Mat> channels;
-  cv::split(off, channels);
-  cv::Mat ghost = cv::max(cv::max(channels[0], channels[1]), channels[2]) > kOff;
+  cv::Mat labels, stats, centers, ghost = worst_difference(lasting, median) > kOff;
   cv::morphologyEx(ghost, ghost, cv::MORPH_CLOSE, element);
   cv::morphologyEx(ghost, ghost, cv::MORPH_OPEN, element);
   cv::Mat mended = median.clone();
@@ -149,7 +148,8 @@ cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
 }  // namespace
 
 void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::Mat& deviation, const Context& context) {
-  cv::Mat lasting = picture.clone(), spread = deviation.clone(), covered = cv::Mat::zeros(picture.size(), CV_8U);
+  cv::Mat lasting = picture.clone(), spread = deviation.clone();
+  cv::Mat covered = cv::Mat::zeros(picture.size(), CV_8U), passed = covered.clone();
   const std::size_t count = frames.size();
   const int reach = static_cast<int>(std::max(kLeastReach, kReach * 1.4826 * typical(deviation)));
   parallel_blocks(context, static_cast<std::size_t>(picture.rows), 16, [&](std::size_t begin, std::size_t end) {
@@ -164,6 +164,7 @@ void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::M
         take_best(column, reach, kClearly * best.score, [](const cv::Vec3b&) { return true; }, best, other);
         if (best.count == 0) continue;
         covered.at<unsigned char>(y, x) = 255;
+        if (best.departures <= kPasses) passed.at<unsigned char>(y, x) = 255;
         describe(column, best, color, spread.at<cv::Vec3b>(y, x));
         const cv::Vec3b dark = color;
         if (take_best(column, reach, kLit * best.score, [&](const cv::Vec3b& c) { return shadow_of(dark, c); }, best, other))
@@ -172,6 +173,7 @@ void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::M
   });
   cv::Mat near;
   cv::dilate(ghosts(lasting, picture), near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kAround, kAround}));
+  spread.copyTo(deviation, passed & (worst_difference(lasting, picture) <= kOff));
   covered &= near;
   lasting.copyTo(picture, covered);
   spread.copyTo(deviation, covered);

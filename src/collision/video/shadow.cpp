@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "collision/video/worst_channel.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
@@ -87,15 +88,6 @@ std::optional<ShadowSign> sign_of(const cv::Mat& frame, const cv::Mat& backgroun
 
 cv::Mat disc(int size) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size}); }
 
-/// Largest difference of the channels of each pixel from `color`.
-cv::Mat distance_to(const cv::Mat& frame, const cv::Scalar& color) {
-  cv::Mat off;
-  std::vector<cv::Mat> channels;
-  cv::absdiff(frame, color, off);
-  cv::split(off, channels);
-  return cv::max(cv::max(channels[0], channels[1]), channels[2]);
-}
-
 /// Whether the light of `lit` goes over into that of `piece`, as it does on a round body, and does not end at an edge.
 bool goes_over(const cv::Mat& frame, const cv::Mat& lit, const cv::Mat& piece) {
   cv::Mat near_lit, near_piece;
@@ -106,7 +98,7 @@ bool goes_over(const cv::Mat& frame, const cv::Mat& lit, const cv::Mat& piece) {
   if (cv::countNonZero(near_lit) == 0 || cv::countNonZero(near_piece) == 0) return false;
   const cv::Scalar jump = cv::mean(frame, near_piece) - cv::mean(frame, near_lit);
   const double most = std::max({std::abs(jump[0]), std::abs(jump[1]), std::abs(jump[2])});
-  return most < kJump * high_contrast(distance_to(frame, cv::mean(frame, piece)), lit);
+  return most < kJump * high_contrast(worst_difference(frame, cv::mean(frame, piece)), lit);
 }
 
 /// A piece of what could be shadow, and what tells that it is one.
