@@ -59,6 +59,18 @@ class DepthCurve {
   Mat3 cofactor_ = Mat3::Zero();
 };
 
+/// How much wider the mean of errors in a row, sorted by time, spreads than if each were by chance: a first-order autoregression's.
+double lengthening(const std::vector<double>& errors) {
+  constexpr double kMost = 0.9;  // correlation of neighbours
+  double squares = 0.0, products = 0.0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    squares += errors[i] * errors[i];
+    if (i > 0) products += errors[i] * errors[i - 1];
+  }
+  const double alike = squares > 0.0 ? std::clamp(products / squares, 0.0, kMost) : 0.0;
+  return std::sqrt((1.0 + alike) / (1.0 - alike));
+}
+
 std::optional<SizeTrend> trend_of(std::vector<Size> sizes, double pixels, int body, bool after) {
   if (sizes.size() < kFewest) return std::nullopt;
   const auto [first, last] = std::minmax_element(sizes.begin(), sizes.end(), [](const Size& a, const Size& b) { return a.time < b.time; });
@@ -78,11 +90,11 @@ std::optional<SizeTrend> trend_of(std::vector<Size> sizes, double pixels, int bo
     if (near.size() < kFewest) break;
     sizes = near;
   }
-  std::vector<double> diameters;
-  for (const Size& s : sizes) diameters.push_back(s.diameter);
+  std::vector<double> diameters, errors;
+  for (const Size& s : sizes) diameters.push_back(s.diameter), errors.push_back(curve.at(s.time) / s.depth - 1.0);
   const auto [change, spread] = curve.change();
   if (!std::isfinite(change)) return std::nullopt;
-  return SizeTrend{body, after, begin, end, change, std::hypot(sigma * spread, kSystematic, pixels / median(diameters))};
+  return SizeTrend{body, after, begin, end, change, std::hypot(sigma * spread * lengthening(errors), kSystematic, pixels / median(diameters))};
 }
 
 }  // namespace
