@@ -22,6 +22,7 @@ constexpr double kPlainer = 0.82;    // of the median's total variation
 constexpr int kOff = 6;              // grey levels: less is no ghost
 constexpr int kPasses = 3;           // that something passes, at most: what flickers or sways departs more often
 constexpr int kAround = 15;          // px, about a ghost, where bodies linger too
+constexpr int kWide = 9;             // px: narrower edges of the background drift
 constexpr double kClearly = 1.2;     // times the median's score
 constexpr double kLit = 0.3;         // of the score of a colour that could be its shadow, which the lit one needs
 constexpr double kShadowLeast = 0.25, kShadowMost = 0.95;  // of the light
@@ -171,9 +172,13 @@ void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::M
           describe(column, best, color, spread.at<cv::Vec3b>(y, x));
       }
   });
-  cv::Mat near;
-  cv::dilate(ghosts(lasting, picture), near, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kAround, kAround}));
-  spread.copyTo(deviation, passed & (worst_difference(lasting, picture) <= kOff));
+  const cv::Mat around = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kAround, kAround});
+  cv::Mat near, wide;
+  cv::dilate(ghosts(lasting, picture), near, around);
+  passed &= worst_difference(lasting, picture) <= kOff;
+  cv::morphologyEx(passed & (worst_channel(deviation) > kOff), wide, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kWide, kWide}));
+  cv::dilate(wide, wide, around);
+  spread.copyTo(deviation, passed & wide);
   covered &= near;
   lasting.copyTo(picture, covered);
   spread.copyTo(deviation, covered);
