@@ -99,6 +99,34 @@ TEST(StackLevels, WhatStandsSideBySideHasNone) {  // its outline steps as well, 
   }
 }
 
+/// Boxes of unlike height whose fronts are not in line: a slab with boxes on it would nearly explain them too.
+TEST(StackLevels, ARowIsPartedByWalls) {
+  for (const double yaw : {-20.0, -1.0, 12.0})
+    for (const double noise : {0.0005, 0.0015}) {
+      const auto at = [&](double across, double in, const Vec3& size) {
+        const Vec2 p = Vec2(0, 1.56) + Eigen::Rotation2Dd(radians(yaw)) * Vec2(across, in + 0.5 * size.y());
+        return upright(p.x(), p.y(), 0, size, yaw);
+      };
+      Scene scene;
+      scene.boxes = {at(-0.303, 0.01, {0.31, 0.36, 0.2}), at(0, 0.045, {0.29, 0.39, 0.44}), at(0.299, 0, {0.304, 0.265, 0.2})};
+      scene.height = 1.5;
+      scene.pitch = radians(37.0);
+      scene.noise = noise;
+      const Observation seen = observed(scene);
+      const Stacks stacks = find_stacks(seen, {all_points_of_objects(seen)}, Context());
+      ASSERT_EQ(stacks.stack_of_piece.size(), 1 + scene.boxes.size()) << yaw << " " << noise;
+      std::size_t count = 0, right = 0;
+      for (std::size_t i = 0; i < seen.points.size(); ++i) {
+        const int piece = stacks.piece_of_point[i];
+        if (piece == 0) continue;
+        const auto& box = scene.boxes[static_cast<std::size_t>(piece - 1)];
+        ++count;
+        right += std::abs(box.axes.col(0).dot(seen.points[i] - box.center)) < box.half_size.x() + 0.01;
+      }
+      EXPECT_GT(static_cast<double>(right), 0.98 * static_cast<double>(count)) << yaw << " " << noise;
+    }
+}
+
 TEST(StackLevels, OneBoxHasNone) {
   for (const double yaw : {0.0, 25.0, 44.0}) {
     Scene scene;

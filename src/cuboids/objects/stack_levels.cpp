@@ -3,11 +3,13 @@
 #include "cuboids/objects/stack_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "cuboids/objects/outline_steps.h"
 #include "cuboids/objects/upright_box.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -23,11 +25,20 @@ constexpr double kMostLeft = 0.25;        // of the points, that a stack may lea
 constexpr double kMostOfOne = 0.5;        // … and of those that one box leaves so
 constexpr double kMostOfStepped = 0.8;    // … where the outline steps at its levels
 constexpr double kLooksDown = -0.7;
+constexpr double kFront = 0.7;  // of a normal, at most along another direction
 constexpr double kFar = 1e9;
 
-/// Of samples in order of height.
+/// Samples in order along a direction.
+std::vector<Sample> along(std::span<const Sample> samples, const Vec3& direction) {
+  std::vector<Sample> sorted(samples.begin(), samples.end());
+  for (Sample& s : sorted) s.at = direction.dot(s.p);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Sample& a, const Sample& b) { return a.at < b.at; });
+  return sorted;
+}
+
+/// Of samples in order.
 std::span<const Sample> between(std::span<const Sample> samples, double low, double high) {
-  const auto lower = [&](double z) { return std::lower_bound(samples.begin(), samples.end(), z, [](const Sample& s, double value) { return s.p.z() < value; }); };
+  const auto lower = [&](double at) { return std::lower_bound(samples.begin(), samples.end(), at, [](const Sample& s, double value) { return s.at < value; }); };
   return {lower(low), lower(high)};
 }
 
@@ -38,7 +49,7 @@ struct Level {
 
 /// The level that leaves least; infinitely much if there is none.
 Level best_level(std::span<const Sample> samples) {
-  const double low = samples.front().p.z(), high = samples.back().p.z();
+  const double low = samples.front().at, high = samples.back().at;
   const std::size_t fewest = std::max(kFewestLevelSamples, static_cast<std::size_t>(kSmallestShare * static_cast<double>(samples.size())));
   const double height = std::max(kLeastHeight, kLeastHeightSigmas * samples[samples.size() / 2].sigma);
   Level best;
@@ -68,7 +79,7 @@ std::vector<double> split(std::span<const Sample> samples) {
 /// Moves each level to where the boxes on either side explain most.
 void place(std::vector<double>& levels, std::span<const Sample> samples) {
   if (samples.empty()) return;
-  double step = (samples.back().p.z() - samples.front().p.z()) / kFirstLevels;
+  double step = (samples.back().at - samples.front().at) / kFirstLevels;
   for (int round = 0; round < kPlaceRounds; ++round) {
     step /= kFinerLevels;
     for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -85,6 +96,13 @@ void place(std::vector<double>& levels, std::span<const Sample> samples) {
   }
 }
 
+/// What boxes between levels leave unexplained.
+double left_between(std::span<const Sample> samples, const std::vector<double>& levels) {
+  double left = unexplained(between(samples, levels.back(), kFar)), low = -kFar;
+  for (const double level : levels) left += unexplained(between(samples, low, level)), low = level;
+  return left;
+}
+
 /// The levels between which a stack's boxes are; none if it is not much better explained so than by one box, or by one body that leans.
 std::vector<double> levels_of(std::span<const Sample> samples) {
   std::vector<double> levels = split(samples);
@@ -99,19 +117,53 @@ std::vector<double> levels_of(std::span<const Sample> samples) {
     if (gain < kLeastExplained * static_cast<double>(both.size())) levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(k));
     else ++k;
   }
-  double left = 0;
-  for (std::size_t k = 0; k + 1 < levels.size(); ++k) left += unexplained(between(samples, levels[k], levels[k + 1]));
-  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * std::min(unexplained(samples), unexplained_leaning(samples)))) return {};
-  return {levels.begin() + 1, levels.end() - 1};
+  levels = {levels.begin() + 1, levels.end() - 1};
+  if (levels.empty() || left_between(samples, levels) > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * std::min(unexplained(samples), unexplained_leaning(samples)))) return {};
+  return levels;
+}
+
+/// Where a part is cut, in order along a direction.
+struct Cuts {
+  Vec3 direction = Vec3::UnitZ();
+  std::vector<double> at;
+};
+
+/// Whether the tops or the fronts of what is on either side of a wall are apart; those of slices of something round are not.
+bool steps_at(double wall, std::span<const Sample> row, const Vec3& direction) {
+  constexpr double kBeside = 0.04;  // m
+  std::array<std::vector<double>, 2> heights, fronts;
+  for (const Sample& s : between(row, wall - kBeside, wall + kBeside)) {
+    heights[s.at > wall].push_back(s.p.z());
+    if (std::abs(s.n.z()) < kFront && std::abs(s.n.dot(direction)) < kFront) fronts[s.at > wall].push_back(direction.cross(Vec3::UnitZ()).dot(s.p));
+  }
+  const double least = std::max(kLeastHeight, kLeastHeightSigmas * row[row.size() / 2].sigma);
+  const auto apart = [&](std::array<std::vector<double>, 2>& places, double share) {
+    return !places[0].empty() && !places[1].empty() && std::abs(quantile(places[0], share) - quantile(places[1], share)) > least;
+  };
+  return apart(heights, 1.0) || apart(fronts, 0.5);
+}
+
+/// Boxes side by side; no cuts where these do not explain the samples much better than boxes upon each other, which leave `left`.
+Cuts row_of(std::span<const Sample> samples, double left) {
+  const Vec2 across = across_front(samples);
+  Cuts row;
+  for (const Vec3& direction : {Vec3(across.x(), across.y(), 0), Vec3(-across.y(), across.x(), 0)}) {
+    const std::vector<Sample> sorted = along(samples, direction);
+    const std::vector<double> at = levels_of(sorted);
+    if (at.empty() || !std::all_of(at.begin(), at.end(), [&](double wall) { return steps_at(wall, sorted, direction); })) continue;
+    const double left_so = left_between(sorted, at);
+    if (left - left_so < std::max(kLeastExplained * static_cast<double>(samples.size()), kMostOfOne * left)) continue;
+    row = {direction, at};
+    left = left_so;
+  }
+  return row;
 }
 
 /// Levels at which the outline steps; none where boxes between them do not explain the samples better than one does.
 std::vector<double> outline_levels(const Observation& seen, const std::vector<int>& part, std::span<const Sample> samples) {
   std::vector<double> levels = outline_steps(seen, part, across_front(samples));
   if (levels.empty()) return {};
-  double left = unexplained(between(samples, levels.back(), kFar)), low = -kFar;
-  for (const double z : levels) left += unexplained(between(samples, low, z)), low = z;
-  if (left > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfStepped * unexplained(samples))) return {};
+  if (left_between(samples, levels) > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfStepped * unexplained(samples))) return {};
   return levels;
 }
 
@@ -125,8 +177,7 @@ std::vector<Sample> samples_of(const Observation& seen, const std::vector<int>& 
     const Vec3& n = seen.graph.normals[i];
     if (!n.isZero() && n.z() > kLooksDown) samples.push_back({seen.points[i], n, seen.graph.sigma[i]});
   }
-  std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.p.z() < b.p.z(); });
-  return samples;
+  return along(samples, Vec3::UnitZ());
 }
 
 }  // namespace
@@ -139,16 +190,18 @@ Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>&
   for (const std::vector<int>& part : parts) {
     context.check();
     const std::vector<Sample> coarse = samples_of(seen, part, kCoarse);
-    std::vector<double> levels = levels_of(coarse);
-    if (!levels.empty())
-      place(levels, samples_of(seen, part, kFine));
-    else if (!coarse.empty())
-      levels = outline_levels(seen, part, coarse);
-    if (levels.empty()) continue;
+    if (coarse.empty()) continue;
+    Cuts cuts{Vec3::UnitZ(), levels_of(coarse)};
+    const bool stepped = cuts.at.empty();
+    if (stepped) cuts.at = outline_levels(seen, part, coarse);
+    Cuts row = row_of(coarse, cuts.at.empty() ? unexplained(coarse) : left_between(coarse, cuts.at));
+    if (!row.at.empty()) cuts = std::move(row);
+    if (!stepped || cuts.direction.z() == 0.0) place(cuts.at, along(samples_of(seen, part, kFine), cuts.direction));
+    if (cuts.at.empty()) continue;
     const auto first = static_cast<int>(stacks.stack_of_piece.size());
     for (const int i : part)
-      stacks.piece_of_point[i] = first + static_cast<int>(std::upper_bound(levels.begin(), levels.end(), seen.points[i].z()) - levels.begin());
-    stacks.stack_of_piece.resize(stacks.stack_of_piece.size() + levels.size() + 1, stack++);
+      stacks.piece_of_point[i] = first + static_cast<int>(std::upper_bound(cuts.at.begin(), cuts.at.end(), cuts.direction.dot(seen.points[i])) - cuts.at.begin());
+    stacks.stack_of_piece.resize(stacks.stack_of_piece.size() + cuts.at.size() + 1, stack++);
   }
   return stacks;
 }

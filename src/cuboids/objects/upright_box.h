@@ -12,6 +12,7 @@ namespace unseen::cuboids {
 struct Sample {
   Vec3 p, n;
   double sigma;  ///< m, of p
+  double at = 0;  ///< m, along the direction in which a part is cut
 };
 
 /// How much of some samples (each 0 … 1: off its side by three σ and more, or beyond another one) the upright box does not explain that suits them
