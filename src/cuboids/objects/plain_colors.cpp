@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
 
 #include "cuboids/objects/color_regions.h"
 #include "cuboids/objects/extent.h"
@@ -21,6 +24,7 @@ constexpr double kWidestShift = 0.025;  // of the picture's longer side, that it
 constexpr double kMostNear = 0.8;       // of a region's points, that are no farther than that from their part's outline
 constexpr double kAlongOutline = 1.0;   // points beside the outline, over the root of those of a region: what has more lies along it
 constexpr std::size_t kSamplesOfRegion = 400;
+constexpr int kFewestLinksOfColor = 20;
 
 std::vector<Sample> some_samples(const Observation& seen, std::span<const int> points) {
   std::vector<Sample> samples;
@@ -122,21 +126,45 @@ std::vector<ColorRegion> plain_boxes(const Observation& seen, std::span<const Ti
   return regions;
 }
 
+/// Parts that meet where colours go on from one into the other, as where books lie in a pile nearly in line: each list of points, in order.
+std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts) {
+  std::vector<int> part_of_point(seen.points.size(), -1), body(parts.size());
+  std::iota(body.begin(), body.end(), 0);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const int i : parts[k]) part_of_point[i] = static_cast<int>(k);
+  std::map<std::pair<int, int>, int> links;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const int i : parts[k])
+      for (const int j : seen.graph.neighbours(i))
+        if (part_of_point[j] > static_cast<int>(k) && !are_other_tints(seen.tints[seen.pixel_of_point[i]], seen.tints[seen.pixel_of_point[j]])) ++links[{static_cast<int>(k), part_of_point[j]}];
+  for (const auto& [pair, count] : links)
+    if (count >= kFewestLinksOfColor)
+      if (const int to = body[pair.first], from = body[pair.second]; to != from) std::replace(body.begin(), body.end(), std::max(to, from), std::min(to, from));
+  std::vector<std::vector<int>> bodies(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) bodies[body[k]].insert(bodies[body[k]].end(), parts[k].begin(), parts[k].end());
+  for (std::vector<int>& points : bodies) std::sort(points.begin(), points.end());
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (bodies[k].size() == parts[k].size()) bodies[k].clear();  // a part alone
+  std::erase_if(bodies, [](const std::vector<int>& points) { return points.empty(); });
+  return bodies;
+}
+
 }  // namespace
 
 void find_plain_colors(const RgbdFrame& frame, const Observation& seen, const std::vector<std::vector<int>>& parts, Stacks& stacks, const Context& context) {
   if (seen.tints.empty()) return;
   const std::vector<Tint> supports = tints_of_supports(seen);
   std::vector<int> scratch(seen.points.size(), -2);
+  std::vector<char> done(seen.points.size(), 0);
   int stack = *std::max_element(stacks.stack_of_piece.begin(), stacks.stack_of_piece.end()) + 1;
-  for (const std::vector<int>& part : parts) {
+  const auto part_by_color = [&](const std::vector<int>& part) {
     context.check();
     std::vector<ColorRegion> regions = color_regions(frame, seen, part, scratch);
     for (const int i : part) scratch[i] = 0;
     const std::vector<ColorRegion> boxes = plain_boxes(seen, supports, part, {seen, scratch, frame.camera.width, frame.camera.height}, std::move(regions));
     for (const int i : part) scratch[i] = -2;
-    if (boxes.empty()) continue;
-    for (const int i : part) stacks.piece_of_point[i] = 0;
+    if (boxes.empty()) return;
+    for (const int i : part) stacks.piece_of_point[i] = 0, done[i] = 1;
     for (const ColorRegion& box : boxes) {
       const auto piece = static_cast<int>(stacks.stack_of_piece.size());
       for (const int i : box.points) stacks.piece_of_point[i] = piece;
@@ -144,7 +172,10 @@ void find_plain_colors(const RgbdFrame& frame, const Observation& seen, const st
       stacks.stack_of_piece.push_back(stack);
     }
     ++stack;
-  }
+  };
+  for (const std::vector<int>& body : joined_by_color(seen, parts)) part_by_color(body);
+  for (const std::vector<int>& part : parts)
+    if (!done[part.front()]) part_by_color(part);
 }
 
 }  // namespace unseen::cuboids

@@ -14,6 +14,8 @@ constexpr double kFlush = 0.05, kInLine = 0.2;  // of a size, by which the ends 
 constexpr double kBandBetween = 0.6; // of the lesser size, that a band between them is long at most,
 constexpr double kBroadBand = 2.0;   // or if both begin and end alike along a side of it,
 constexpr double kAsLong = 0.1;      // and it is not as long as one of them, as the middle one of three equal boxes
+constexpr std::size_t kFewestStripes = 4;
+constexpr double kStripeGap = 0.01;  // m between stripes: what is blurred is of neither
 constexpr double kThinEnd = 0.2;     // of a thing's length, that its end in another colour goes beyond it at most
 
 /// Whether one goes on, beyond a band, where the other ends: along two directions they begin or end alike, and along the third they are apart by much less
@@ -108,9 +110,45 @@ bool merge_print(const Observation& seen, const Directions& directions, std::vec
   return false;
 }
 
+/// The regions that, side by side along one direction and flush along the others with the first, have two colours by turns.
+std::vector<std::size_t> stripes_from(std::size_t first, int direction, const std::vector<ColorRegion>& regions, const std::vector<DirectedExtent>& extents) {
+  const auto flush = [&](std::size_t i) {
+    const DirectedExtent &a = extents[first], &b = extents[i];
+    for (int k = 0; k < 3; ++k)
+      if (k != direction && std::max(std::abs(a.low[k] - b.low[k]), std::abs(a.high[k] - b.high[k])) > kFlush * (a.high[k] - a.low[k]) + a.room) return false;
+    return true;
+  };
+  std::vector<std::size_t> stripes{first};
+  for (;;) {
+    const DirectedExtent& last = extents[stripes.back()];
+    std::size_t next = regions.size();
+    for (std::size_t i = 0; i < regions.size(); ++i)
+      if (flush(i) && extents[i].low[direction] > last.low[direction] && extents[i].low[direction] < last.high[direction] + kStripeGap + last.room &&
+          (next == regions.size() || extents[i].low[direction] < extents[next].low[direction]))
+        next = i;
+    if (next == regions.size() || !are_other_tints(regions[next].tint, regions[stripes.back()].tint)) return stripes;
+    if (stripes.size() > 1 && are_other_tints(regions[next].tint, regions[stripes[stripes.size() - 2]].tint)) return stripes;
+    stripes.push_back(next);
+  }
+}
+
+/// Merges stripes of two colours by turns, so many that boxes would hardly stand so.
+void merge_stripes(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
+  for (std::size_t a = 0; a < regions.size(); ++a)
+    for (int direction = 0; direction < 3; ++direction) {
+      const std::vector<std::size_t> stripes = stripes_from(a, direction, regions, extents_of(seen, directions, regions));
+      if (stripes.size() < kFewestStripes) continue;
+      for (const std::size_t stripe : stripes)
+        if (stripe != a) absorb(regions[a], regions[stripe]);
+      erase_empty(regions);
+      return merge_stripes(seen, directions, regions);
+    }
+}
+
 }  // namespace
 
 void merge_prints(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
+  merge_stripes(seen, directions, regions);
   merge_ends(seen, directions, regions);
   while (merge_print(seen, directions, regions)) erase_empty(regions);
 }
