@@ -71,7 +71,6 @@ TEST(PlainColors, PartBricksOfAWall) {
   }
 }
 
-/// White is the floor's grey in another light.
 /// One colour around another: of three equal boxes it is no band.
 TEST(PlainColors, PartThreeEqualBoxesOfTwoColors) {
   const Scene row = wall(3, 1, {0.2, 0.2, 0.2}), stack = wall(1, 3, {0.25, 0.15, 0.1});
@@ -79,6 +78,7 @@ TEST(PlainColors, PartThreeEqualBoxesOfTwoColors) {
   EXPECT_EQ(perceive(painted(stack, [](const Vec3& p, int) { return std::abs(p.z() - 0.15) < 0.05 ? kBlue : kRed; })).cuboids.size(), 3u);
 }
 
+/// White is the floor's grey in another light.
 TEST(PlainColors, PartBoxesThatHaveTheColorOfTheFloor) {
   const Vec3 carton(0.16, 0.2, 0.18);
   const Scene row = wall(3, 1, carton);
@@ -89,6 +89,33 @@ TEST(PlainColors, PartBoxesThatHaveTheColorOfTheFloor) {
                                       })).cuboids;
   ASSERT_EQ(cartons.size(), 3u);
   for (const OrientedBox& box : row.boxes) EXPECT_LT(size_error(nearest(cartons, box.center).box, box), 0.012);
+}
+
+/// The depth alone joins some of one book's front to the book above it, and some to the one below.
+TEST(PlainColors, PartAPileOfBooksNearlyInLine) {
+  const std::array colors{kBlue, kYellow, kGreen, kRed};
+  const std::array heights{0.049, 0.04, 0.038, 0.046};
+  const std::array sizes{Vec2(0.27, 0.2), Vec2(0.244, 0.189), Vec2(0.221, 0.171), Vec2(0.206, 0.161)};
+  int right = 0, piles = 0;
+  for (const double yaw : {-28.0, -5.0, 10.0})
+    for (const double turn : {-7.5, 4.0}) {
+      Scene scene;
+      scene.height = 0.5;
+      scene.pitch = radians(30.0);
+      scene.dropout = 1;
+      double z = 0;
+      for (int k = 0; k < 4; ++k, z += heights[k - 1])
+        scene.boxes.push_back(upright(0.003 * (k % 3), 0.75 + 0.004 * (k % 2), z, {sizes[k].x(), sizes[k].y(), heights[k]}, k == 2 ? yaw + turn : yaw));
+      const auto paint = [&](const Vec3& p, int) {
+        int k = 0;
+        for (double top = heights[0]; k < 3 && p.z() > top + 1e-4; top += heights[++k]) {}
+        return colors[k];
+      };
+      const std::vector<Cuboid> books = perceive(painted(scene, paint)).cuboids;
+      ++piles;
+      right += books.size() == 4 && std::all_of(scene.boxes.begin(), scene.boxes.end(), [&](const OrientedBox& box) { return std::abs(nearest(books, box.center).box.half_size.z() - box.half_size.z()) < 0.006; });
+    }
+  EXPECT_EQ(right, piles);
 }
 
 /// It belongs to neither for sure.
@@ -129,9 +156,10 @@ TEST(PlainColors, PrintsAreNoBoxes) {
   const auto end = [](const Vec3& p, int) { return p.x() > 0.12 ? kBlue : kYellow; };
   const auto lid = [](const Vec3&, int side) { return side == 5 ? kBlue : kYellow; };
   const auto checks = [](const Vec3& p, int) { return (std::abs(p.x()) < 0.03) == (std::abs(p.z() - 0.12) < 0.04) ? kBlue : kYellow; };
+  const auto stripes = [](const Vec3& p, int) { return static_cast<int>(std::floor((p.x() + 0.15) / 0.06)) % 2 == 0 ? kBlue : kYellow; };
   const auto spots = [](const Vec3& p, int) { return std::fmod(p.x() + p.y() + 10.0, 0.02) < 0.01 ? kBlue : kYellow; };
   for (const auto& [name, paint] : std::initializer_list<std::pair<const char*, std::function<Color(const Vec3&, int)>>>{
-           {"label", label}, {"band", band}, {"belt", belt}, {"broad belt", broad}, {"end", end}, {"lid", lid}, {"checks", checks}, {"spots", spots}}) {
+           {"label", label}, {"band", band}, {"belt", belt}, {"broad belt", broad}, {"end", end}, {"lid", lid}, {"checks", checks}, {"stripes", stripes}, {"spots", spots}}) {
     const std::vector<Cuboid> cuboids = perceive(painted(scene, paint)).cuboids;
     ASSERT_EQ(cuboids.size(), 1u) << name;
     EXPECT_LT(size_error(cuboids[0].box, scene.boxes[0]), 0.01) << name;
