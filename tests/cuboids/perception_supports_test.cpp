@@ -185,6 +185,28 @@ TEST(Up, ThatNoPlaneIsOrthogonalToGivesWayToThatOfARamp) {
   EXPECT_THROW(observe(frame, {}, context), InputError);
 }
 
+/// What the frame file says may not be what was meant.
+TEST(Given, SupportsWithNothingOnThemAndOblongPixelsAreSaid) {
+  const RgbdFrame frame = render(few_boxes());
+  const auto warnings = [&](const Plane& ground, double oblong) {
+    RgbdFrame given = frame;
+    given.supports = {{ground, "ground"}};
+    given.camera.fy *= oblong;
+    Context context;
+    observe(given, {}, context);
+    return context.take_warnings();
+  };
+  const RigidTransform T = camera_of(few_boxes());
+  const Vec3 normal = T.rotation.row(2).transpose();
+  const double height = few_boxes().height;
+  EXPECT_TRUE(warnings({normal, -height}, 1.1).empty());
+  const std::vector<std::string> far = warnings({normal, -height - 5.0}, 1.0), oblong = warnings({normal, -height}, 0.1);
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_NE(far[0].find("lies on the ground that is given"), std::string::npos) << far[0];
+  ASSERT_FALSE(oblong.empty());
+  EXPECT_NE(oblong[0].find("fx = 525 and fy = 52.5"), std::string::npos) << oblong[0];
+}
+
 /// A box on a floor in front of a wall, which is `distance` m away and wider than the picture.
 Scene before_a_wall(double distance) {
   Scene scene;

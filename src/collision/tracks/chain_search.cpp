@@ -21,21 +21,22 @@ struct Range {
   std::size_t begin, end;
 };
 
-/// Whether the sizes of a body say that it comes nearer on one side of a meeting and goes away on the other, in its flights or their halves by the meeting:
-/// what rises from a floor below the camera falls back to it.
+/// Whether the sizes of a body say that it comes nearer on one side of a meeting and goes away on the other. What rises from a floor below the camera falls
+/// back to it: there the halves of its flights by the meeting tell, if they say that it went away and then came nearer, as at no top of a flight.
 bool returns(const Shot& shot, const ShotCamera& camera, Tracks tracks, const Tracks::Meeting& meeting) {
   constexpr double kClear = 3.0;  // σ
   FlightSpan &before = tracks.spans[static_cast<std::size_t>(meeting.before[0])], &after = tracks.spans[static_cast<std::size_t>(meeting.after[0])];
-  const auto turn = [&] {
+  const auto turns = [&](bool from_away) {
     const Problem problem = problem_of(shot, Options{}, camera, {solid_of(shot.bodies[0], shot.name), solid_of(shot.bodies[1], shot.name)}, tracks, meeting);
     if (problem.trends.size() != 2) return false;
     const SizeTrend &one = problem.trends[0], &other = problem.trends[1];
-    return one.change * other.change < 0.0 && std::min(std::abs(one.change) / one.sigma, std::abs(other.change) / other.sigma) > kClear;
+    if (from_away ? one.change < 0.0 || other.change > 0.0 : one.change * other.change >= 0.0) return false;
+    return std::min(std::abs(one.change) / one.sigma, std::abs(other.change) / other.sigma) > kClear;
   };
-  if (turn()) return true;
+  if (turns(false)) return true;
   before.begin = (before.begin + before.end) / 2;
   after.end = (after.begin + after.end) / 2;
-  return turn();
+  return turns(true);
 }
 
 /// Flights that follow each other within `step` sightings meet where both explain theirs best.
@@ -118,11 +119,12 @@ Chain settled_chain(Flights& flights, const std::vector<Candidate>& seen, double
   return best;
 }
 
-/// The same sightings with down as one flight of them all says (a wrong down bends flights, which an impact would explain), and as cameras that look down have it.
-std::vector<Flights> other_ways_down(const Flights& level, const std::vector<Candidate>& seen, double fps) {
-  std::vector<Flights> ways(level.knows_down() ? 1 : 3, level);
+/// Other guesses of down: as one flight of all sightings says (a wrong one bends flights, which an impact would explain), and as in cameras that look down.
+std::vector<Flights> other_ways_down(const Flights& level, const Shot& shot, const std::vector<Candidate>& seen, double fps) {
+  const bool steep = !level.knows_down() && shot.gravity > 0.0;
+  std::vector<Flights> ways(steep ? 3 : 1, level);
   ways[0].settle_down([&] { return ways[0].cost({seen}, 0, seen.size(), std::nullopt, fps); });
-  if (ways.size() == 3) {
+  if (steep) {
     ways[1].set_down(Vec3(0, 1, 1).normalized());
     ways[2].set_down(Vec3::UnitZ());
   }
@@ -149,9 +151,10 @@ std::optional<Tracks> search_chain(const Shot& shot, const ShotCamera& camera, s
   if (seen.size() < 2 * kFewestSeen || seen.size() > kMost) return std::nullopt;
   for (Candidate& c : seen) c.body = body;
   Flights flights(shot, camera, noise);
+  std::vector<Flights> others = other_ways_down(flights, shot, seen, fps);
   Chain chain = settled_chain(flights, seen, fps, context);
-  for (Flights& other_way : other_ways_down(Flights(shot, camera, noise), seen, fps))
-    if (Chain other = settled_chain(other_way, seen, fps, context); other.cost < chain.cost) chain = std::move(other), flights = other_way;
+  for (Flights& way : others)
+    if (Chain other = settled_chain(way, seen, fps, context); other.cost < chain.cost) chain = std::move(other), flights = way;
   std::vector<Range>& spans = chain.flights;
   leave_out_what_does_not_fall(shot, camera, flights, seen, noise, fps, spans);
   Tracks tracks;

@@ -12,6 +12,7 @@
 #include "cuboids/objects/color_regions.h"
 #include "cuboids/objects/extent.h"
 #include "cuboids/objects/prints.h"
+#include "cuboids/objects/slabs.h"
 #include "cuboids/objects/upright_box.h"
 #include "unseen/core/quantile.h"
 
@@ -24,7 +25,8 @@ constexpr double kWidestShift = 0.025;  // of the picture's longer side, that it
 constexpr double kMostNear = 0.8;       // of a region's points, that are no farther than that from their part's outline
 constexpr double kAlongOutline = 1.0;   // points beside the outline, over the root of those of a region: what has more lies along it
 constexpr std::size_t kSamplesOfRegion = 400;
-constexpr int kFewestLinksOfColor = 20;
+constexpr int kFewestLinksOfColor = 20;  // between neighbours, of parts that a region goes on in
+const double kSameSide = std::cos(radians(15.0));
 
 std::vector<Sample> some_samples(const Observation& seen, std::span<const int> points) {
   std::vector<Sample> samples;
@@ -43,6 +45,21 @@ double off_box(const Observation& seen, const ColorRegion& region) {
   const DirectedExtent extent = extent_of(seen, directions, region.points);
   const auto on = std::count_if(samples.begin(), samples.end(), [&](const Sample& s) { return extent.has_on_side(directions(s.p)); });
   return count * (1.0 - static_cast<double>(on) / static_cast<double>(samples.size()));
+}
+
+/// Whether the upright box around a region is not proven free for the most part, as between the legs of a chair.
+bool is_filled(const Observation& seen, const DepthView& view, const ColorRegion& region) {
+  constexpr double kFilled = 0.9, kVoxel = 0.2;  // share; of the longest half side
+  const std::vector<Sample> samples = some_samples(seen, region.points);
+  if (samples.empty()) return false;
+  const Directions directions{across_front(samples)};
+  const DirectedExtent extent = extent_of(seen, directions, region.points);
+  OrientedBox box;
+  box.axes.col(0) = Vec3(directions.along.x(), directions.along.y(), 0);
+  box.axes.col(1) = Vec3(-directions.along.y(), directions.along.x(), 0);
+  box.center = box.axes * (0.5 * (extent.low + extent.high));
+  box.half_size = 0.5 * (extent.high - extent.low);
+  return filled_share(view, box, kVoxel * box.half_size.maxCoeff()) > kFilled;
 }
 
 /// Whether a region has two sides of a box.
@@ -126,45 +143,56 @@ std::vector<ColorRegion> plain_boxes(const Observation& seen, std::span<const Ti
   return regions;
 }
 
-/// Parts that meet where colours go on from one into the other, as where books lie in a pile nearly in line: each list of points, in order.
-std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts) {
-  std::vector<int> part_of_point(seen.points.size(), -1), body(parts.size());
-  std::iota(body.begin(), body.end(), 0);
+/// Parts whose regions go on in other parts, on the same side and in the same colour, as where books lie in a pile nearly in line; their points in order.
+std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts, const std::vector<std::vector<ColorRegion>>& regions) {
+  std::vector<std::pair<int, const ColorRegion*>> region_of_point(seen.points.size(), {-1, nullptr});  // and its part
   for (std::size_t k = 0; k < parts.size(); ++k)
-    for (const int i : parts[k]) part_of_point[i] = static_cast<int>(k);
+    for (const ColorRegion& region : regions[k])
+      for (const int i : region.points) region_of_point[i] = {static_cast<int>(k), &region};
+  const auto goes_on = [&](int i, int j) {
+    return seen.graph.normals[i].dot(seen.graph.normals[j]) > kSameSide && !are_other_tints(region_of_point[i].second->tint, region_of_point[j].second->tint);
+  };
   std::map<std::pair<int, int>, int> links;
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    for (const int i : parts[k])
-      for (const int j : seen.graph.neighbours(i))
-        if (part_of_point[j] > static_cast<int>(k) && !are_other_tints(seen.tints[seen.pixel_of_point[i]], seen.tints[seen.pixel_of_point[j]])) ++links[{static_cast<int>(k), part_of_point[j]}];
-  for (const auto& [pair, count] : links)
-    if (count >= kFewestLinksOfColor)
-      if (const int to = body[pair.first], from = body[pair.second]; to != from) std::replace(body.begin(), body.end(), std::max(to, from), std::min(to, from));
+  for (int i = 0; i < static_cast<int>(seen.points.size()); ++i)
+    for (const int j : seen.graph.neighbours(i))
+      if (region_of_point[i].first >= 0 && region_of_point[i].first < region_of_point[j].first && goes_on(i, j)) ++links[{region_of_point[i].first, region_of_point[j].first}];
+  std::vector<int> body(parts.size());
+  std::iota(body.begin(), body.end(), 0);
+  for (const auto& [pair, count] : links) {
+    const auto [to, from] = std::minmax(body[pair.first], body[pair.second]);
+    if (count >= kFewestLinksOfColor) std::replace(body.begin(), body.end(), int{from}, int{to});
+  }
   std::vector<std::vector<int>> bodies(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) bodies[body[k]].insert(bodies[body[k]].end(), parts[k].begin(), parts[k].end());
-  for (std::vector<int>& points : bodies) std::sort(points.begin(), points.end());
-  for (std::size_t k = 0; k < parts.size(); ++k)
+  for (std::size_t k = 0; k < parts.size(); ++k) {
     if (bodies[k].size() == parts[k].size()) bodies[k].clear();  // a part alone
+    std::sort(bodies[k].begin(), bodies[k].end());
+  }
   std::erase_if(bodies, [](const std::vector<int>& points) { return points.empty(); });
   return bodies;
 }
 
 }  // namespace
 
-void find_plain_colors(const RgbdFrame& frame, const Observation& seen, const std::vector<std::vector<int>>& parts, Stacks& stacks, const Context& context) {
+void find_plain_colors(const RgbdFrame& frame, const Observation& seen, const std::vector<std::vector<int>>& parts, const DepthView& view, Stacks& stacks,
+                       const Context& context) {
   if (seen.tints.empty()) return;
   const std::vector<Tint> supports = tints_of_supports(seen);
   std::vector<int> scratch(seen.points.size(), -2);
-  std::vector<char> done(seen.points.size(), 0);
-  int stack = *std::max_element(stacks.stack_of_piece.begin(), stacks.stack_of_piece.end()) + 1;
-  const auto part_by_color = [&](const std::vector<int>& part) {
+  std::vector<std::vector<ColorRegion>> regions;
+  for (const std::vector<int>& part : parts) {
     context.check();
-    std::vector<ColorRegion> regions = color_regions(frame, seen, part, scratch);
+    regions.push_back(color_regions(frame, seen, part, scratch));
+  }
+  int stack = *std::max_element(stacks.stack_of_piece.begin(), stacks.stack_of_piece.end()) + 1;
+  const auto boxes_of = [&](const std::vector<int>& part, std::vector<ColorRegion> found) {
     for (const int i : part) scratch[i] = 0;
-    const std::vector<ColorRegion> boxes = plain_boxes(seen, supports, part, {seen, scratch, frame.camera.width, frame.camera.height}, std::move(regions));
+    std::vector<ColorRegion> boxes = plain_boxes(seen, supports, part, {seen, scratch, frame.camera.width, frame.camera.height}, std::move(found));
     for (const int i : part) scratch[i] = -2;
-    if (boxes.empty()) return;
-    for (const int i : part) stacks.piece_of_point[i] = 0, done[i] = 1;
+    return boxes;
+  };
+  const auto cut = [&](const std::vector<int>& part, const std::vector<ColorRegion>& boxes) {
+    for (const int i : part) stacks.piece_of_point[i] = 0;
     for (const ColorRegion& box : boxes) {
       const auto piece = static_cast<int>(stacks.stack_of_piece.size());
       for (const int i : box.points) stacks.piece_of_point[i] = piece;
@@ -173,9 +201,22 @@ void find_plain_colors(const RgbdFrame& frame, const Observation& seen, const st
     }
     ++stack;
   };
-  for (const std::vector<int>& body : joined_by_color(seen, parts)) part_by_color(body);
-  for (const std::vector<int>& part : parts)
-    if (!done[part.front()]) part_by_color(part);
+  std::vector<char> done(seen.points.size(), 0);
+  for (const std::vector<int>& body : joined_by_color(seen, parts, regions)) {
+    context.check();
+    const std::vector<ColorRegion> boxes = boxes_of(body, color_regions(frame, seen, body, scratch));
+    const bool good = std::all_of(boxes.begin(), boxes.end(), [&](const ColorRegion& box) {
+      return off_box(seen, box) <= kMostOff * static_cast<double>(box.points.size()) && is_filled(seen, view, box);
+    });
+    if (boxes.empty() || !good) continue;
+    cut(body, boxes);
+    for (const int i : body) done[i] = 1;
+  }
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (done[parts[k].front()] != 0) continue;
+    const std::vector<ColorRegion> boxes = boxes_of(parts[k], std::move(regions[k]));
+    if (!boxes.empty()) cut(parts[k], boxes);
+  }
 }
 
 }  // namespace unseen::cuboids

@@ -15,6 +15,7 @@ constexpr double kBandBetween = 0.6; // of the lesser size, that a band between 
 constexpr double kBroadBand = 2.0;   // or if both begin and end alike along a side of it,
 constexpr double kAsLong = 0.1;      // and it is not as long as one of them, as the middle one of three equal boxes
 constexpr std::size_t kFewestStripes = 4;
+constexpr double kWidestStripe = 0.6;  // of the longer one of its other sides: cubes of two colours by turns are boxes
 constexpr double kStripeGap = 0.01;  // m between stripes: what is blurred is of neither
 constexpr double kThinEnd = 0.2;     // of a thing's length, that its end in another colour goes beyond it at most
 
@@ -110,20 +111,25 @@ bool merge_print(const Observation& seen, const Directions& directions, std::vec
   return false;
 }
 
-/// The regions that, side by side along one direction and flush along the others with the first, have two colours by turns.
+/// The regions that, side by side along one direction from the first on, and flush with it along the others, have two colours by turns and are narrow.
 std::vector<std::size_t> stripes_from(std::size_t first, int direction, const std::vector<ColorRegion>& regions, const std::vector<DirectedExtent>& extents) {
-  const auto flush = [&](std::size_t i) {
-    const DirectedExtent &a = extents[first], &b = extents[i];
+  const DirectedExtent& one = extents[first];
+  double across = 0;
+  for (int k = 0; k < 3; ++k)
+    if (k != direction) across = std::max(across, one.high[k] - one.low[k]);
+  const auto is_stripe = [&](const DirectedExtent& other) {
     for (int k = 0; k < 3; ++k)
-      if (k != direction && std::max(std::abs(a.low[k] - b.low[k]), std::abs(a.high[k] - b.high[k])) > kFlush * (a.high[k] - a.low[k]) + a.room) return false;
-    return true;
+      if (k != direction && std::max(std::abs(one.low[k] - other.low[k]), std::abs(one.high[k] - other.high[k])) > kFlush * (one.high[k] - one.low[k]) + one.room)
+        return false;
+    return other.high[direction] - other.low[direction] < kWidestStripe * across;
   };
+  if (!is_stripe(one)) return {};
   std::vector<std::size_t> stripes{first};
   for (;;) {
     const DirectedExtent& last = extents[stripes.back()];
     std::size_t next = regions.size();
     for (std::size_t i = 0; i < regions.size(); ++i)
-      if (flush(i) && extents[i].low[direction] > last.low[direction] && extents[i].low[direction] < last.high[direction] + kStripeGap + last.room &&
+      if (is_stripe(extents[i]) && extents[i].low[direction] > last.low[direction] && extents[i].low[direction] < last.high[direction] + kStripeGap + last.room &&
           (next == regions.size() || extents[i].low[direction] < extents[next].low[direction]))
         next = i;
     if (next == regions.size() || !are_other_tints(regions[next].tint, regions[stripes.back()].tint)) return stripes;
@@ -134,15 +140,16 @@ std::vector<std::size_t> stripes_from(std::size_t first, int direction, const st
 
 /// Merges stripes of two colours by turns, so many that boxes would hardly stand so.
 void merge_stripes(const Observation& seen, const Directions& directions, std::vector<ColorRegion>& regions) {
-  for (std::size_t a = 0; a < regions.size(); ++a)
-    for (int direction = 0; direction < 3; ++direction) {
-      const std::vector<std::size_t> stripes = stripes_from(a, direction, regions, extents_of(seen, directions, regions));
-      if (stripes.size() < kFewestStripes) continue;
-      for (const std::size_t stripe : stripes)
-        if (stripe != a) absorb(regions[a], regions[stripe]);
-      erase_empty(regions);
-      return merge_stripes(seen, directions, regions);
-    }
+  for (;;) {
+    const std::vector<DirectedExtent> extents = extents_of(seen, directions, regions);
+    std::vector<std::size_t> most;
+    for (std::size_t a = 0; a < regions.size(); ++a)
+      for (int direction = 0; direction < 3; ++direction)
+        if (std::vector<std::size_t> stripes = stripes_from(a, direction, regions, extents); stripes.size() > most.size()) most = std::move(stripes);
+    if (most.size() < kFewestStripes) return;
+    for (std::size_t k = 1; k < most.size(); ++k) absorb(regions[most.front()], regions[most[k]]);
+    erase_empty(regions);
+  }
 }
 
 }  // namespace

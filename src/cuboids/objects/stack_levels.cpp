@@ -42,9 +42,9 @@ std::span<const Sample> between(std::span<const Sample> samples, double low, dou
   return {lower(low), lower(high)};
 }
 
-/// A level, and what boxes below and above it leave unexplained.
+/// A level, and what boxes below and above it leave unexplained. In a row of boxes a wall between two, and "below" is on its one side.
 struct Level {
-  double z = 0, left = std::numeric_limits<double>::infinity();
+  double at = 0, left = std::numeric_limits<double>::infinity();
 };
 
 /// The level that leaves least; infinitely much if there is none.
@@ -54,11 +54,11 @@ Level best_level(std::span<const Sample> samples) {
   const double height = std::max(kLeastHeight, kLeastHeightSigmas * samples[samples.size() / 2].sigma);
   Level best;
   for (int k = 1; k < kFirstLevels; ++k) {
-    const double z = low + (high - low) * k / kFirstLevels;
-    const auto below = between(samples, -kFar, z), above = between(samples, z, kFar);
-    if (z - low < height || high - z < height || below.size() < fewest || above.size() < fewest) continue;
+    const double at = low + (high - low) * k / kFirstLevels;
+    const auto below = between(samples, -kFar, at), above = between(samples, at, kFar);
+    if (at - low < height || high - at < height || below.size() < fewest || above.size() < fewest) continue;
     const double left = unexplained(below) + unexplained(above);
-    if (left < best.left) best = {z, left};
+    if (left < best.left) best = {at, left};
   }
   return best;
 }
@@ -69,9 +69,9 @@ std::vector<double> split(std::span<const Sample> samples) {
   if (samples.size() < 2 * kFewestLevelSamples || one < kLeastExplained * count) return {};
   const Level level = best_level(samples);
   if (one - level.left < std::max(kLeastExplained * count, kLeastShare * one)) return {};
-  std::vector<double> levels = split(between(samples, -kFar, level.z));
-  levels.push_back(level.z);
-  const std::vector<double> above = split(between(samples, level.z, kFar));
+  std::vector<double> levels = split(between(samples, -kFar, level.at));
+  levels.push_back(level.at);
+  const std::vector<double> above = split(between(samples, level.at, kFar));
   levels.insert(levels.end(), above.begin(), above.end());
   return levels;
 }
@@ -118,8 +118,9 @@ std::vector<double> levels_of(std::span<const Sample> samples) {
     else ++k;
   }
   levels = {levels.begin() + 1, levels.end() - 1};
-  if (levels.empty() || left_between(samples, levels) > std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * std::min(unexplained(samples), unexplained_leaning(samples)))) return {};
-  return levels;
+  if (levels.empty()) return {};
+  const double most = std::min(kMostLeft * static_cast<double>(samples.size()), kMostOfOne * std::min(unexplained(samples), unexplained_leaning(samples)));
+  return left_between(samples, levels) > most ? std::vector<double>() : levels;
 }
 
 /// Where a part is cut, in order along a direction.
@@ -140,7 +141,7 @@ bool steps_at(double wall, std::span<const Sample> row, const Vec3& direction) {
   const auto apart = [&](std::array<std::vector<double>, 2>& places, double share) {
     return !places[0].empty() && !places[1].empty() && std::abs(quantile(places[0], share) - quantile(places[1], share)) > least;
   };
-  return apart(heights, 1.0) || apart(fronts, 0.5);
+  return apart(heights, 0.98) || apart(fronts, 0.5);
 }
 
 /// Boxes side by side; no cuts where these do not explain the samples much better than boxes upon each other, which leave `left`.
@@ -192,11 +193,12 @@ Stacks find_stacks(const Observation& seen, const std::vector<std::vector<int>>&
     const std::vector<Sample> coarse = samples_of(seen, part, kCoarse);
     if (coarse.empty()) continue;
     Cuts cuts{Vec3::UnitZ(), levels_of(coarse)};
-    const bool stepped = cuts.at.empty();
-    if (stepped) cuts.at = outline_levels(seen, part, coarse);
+    const bool by_outline = cuts.at.empty();
+    if (by_outline) cuts.at = outline_levels(seen, part, coarse);
     Cuts row = row_of(coarse, cuts.at.empty() ? unexplained(coarse) : left_between(coarse, cuts.at));
-    if (!row.at.empty()) cuts = std::move(row);
-    if (!stepped || cuts.direction.z() == 0.0) place(cuts.at, along(samples_of(seen, part, kFine), cuts.direction));
+    const bool is_row = !row.at.empty();
+    if (is_row) cuts = std::move(row);
+    if (is_row || !by_outline) place(cuts.at, along(samples_of(seen, part, kFine), cuts.direction));
     if (cuts.at.empty()) continue;
     const auto first = static_cast<int>(stacks.stack_of_piece.size());
     for (const int i : part)

@@ -169,10 +169,26 @@ void remark_on_up(const FoundUp& told, const Vec3& up, Context& context) {
                            shown(up.z())));
 }
 
+/// A word where what was given hardly goes with the picture.
+void remark_on_camera(const RgbdFrame& frame, Context& context) {
+  constexpr double kOblong = 1.25;  // pixels: those of nearly all cameras are square
+  const double fx = frame.camera.fx, fy = frame.camera.fy;
+  if (!frame.is_fused() && std::max(fx, fy) > kOblong * std::min(fx, fy))
+    context.warn(fmt::format("camera: fx = {:.4g} and fy = {:.4g} make pixels oblong; if they are square, all sizes are wrong", fx, fy));
+}
+
+void remark_on_given_supports(const Observation& seen, Context& context) {
+  for (const Support& support : seen.supports)
+    if (support.kind <= SupportKind::desk && std::find(seen.support_of_point.begin(), seen.support_of_point.end(), support.id) == seen.support_of_point.end())
+      context.warn(fmt::format("nothing in the picture lies on the {} that is given; its normal and offset are those of the camera's coordinates, in metres",
+                               kSupportKinds[static_cast<std::size_t>(support.kind)]));
+}
+
 }  // namespace
 
 Observation observe(const RgbdFrame& frame, const Options& options, Context& context) {
   check_frame(frame);
+  remark_on_camera(frame, context);
   const Measured measured = measured_points(frame);
   check_points(frame, measured);
   Observation seen;
@@ -222,6 +238,7 @@ Observation observe(const RgbdFrame& frame, const Options& options, Context& con
   seen.pixel_of_point = measured.pixel_of_point;
   seen.point_of_pixel = measured.point_of_pixel;
   seen.tints = tints_of(frame);
+  if (!frame.supports.empty()) remark_on_given_supports(seen, context);
   return seen;
 }
 
