@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <utility>
 
+#include "cuboids/objects/color_bodies.h"
 #include "cuboids/objects/color_regions.h"
 #include "cuboids/objects/extent.h"
 #include "cuboids/objects/prints.h"
@@ -25,8 +24,6 @@ constexpr double kWidestShift = 0.025;  // of the picture's longer side, that it
 constexpr double kMostNear = 0.8;       // of a region's points, that are no farther than that from their part's outline
 constexpr double kAlongOutline = 1.0;   // points beside the outline, over the root of those of a region: what has more lies along it
 constexpr std::size_t kSamplesOfRegion = 400;
-constexpr int kFewestLinksOfColor = 20;  // between neighbours, of parts that a region goes on in
-const double kSameSide = std::cos(radians(15.0));
 
 std::vector<Sample> some_samples(const Observation& seen, std::span<const int> points) {
   std::vector<Sample> samples;
@@ -141,35 +138,6 @@ std::vector<ColorRegion> plain_boxes(const Observation& seen, std::span<const Ti
   for (const ColorRegion& region : regions) off += off_box(seen, region);
   if (off > kMostOff * static_cast<double>(part.size())) return {};
   return regions;
-}
-
-/// Parts whose regions go on in other parts, on the same side and in the same colour, as where books lie in a pile nearly in line; their points in order.
-std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts, const std::vector<std::vector<ColorRegion>>& regions) {
-  std::vector<std::pair<int, const ColorRegion*>> region_of_point(seen.points.size(), {-1, nullptr});  // and its part
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    for (const ColorRegion& region : regions[k])
-      for (const int i : region.points) region_of_point[i] = {static_cast<int>(k), &region};
-  const auto goes_on = [&](int i, int j) {
-    return seen.graph.normals[i].dot(seen.graph.normals[j]) > kSameSide && !are_other_tints(region_of_point[i].second->tint, region_of_point[j].second->tint);
-  };
-  std::map<std::pair<int, int>, int> links;
-  for (int i = 0; i < static_cast<int>(seen.points.size()); ++i)
-    for (const int j : seen.graph.neighbours(i))
-      if (region_of_point[i].first >= 0 && region_of_point[i].first < region_of_point[j].first && goes_on(i, j)) ++links[{region_of_point[i].first, region_of_point[j].first}];
-  std::vector<int> body(parts.size());
-  std::iota(body.begin(), body.end(), 0);
-  for (const auto& [pair, count] : links) {
-    const auto [to, from] = std::minmax(body[pair.first], body[pair.second]);
-    if (count >= kFewestLinksOfColor) std::replace(body.begin(), body.end(), int{from}, int{to});
-  }
-  std::vector<std::vector<int>> bodies(parts.size());
-  for (std::size_t k = 0; k < parts.size(); ++k) bodies[body[k]].insert(bodies[body[k]].end(), parts[k].begin(), parts[k].end());
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (bodies[k].size() == parts[k].size()) bodies[k].clear();  // a part alone
-    std::sort(bodies[k].begin(), bodies[k].end());
-  }
-  std::erase_if(bodies, [](const std::vector<int>& points) { return points.empty(); });
-  return bodies;
 }
 
 }  // namespace
