@@ -52,13 +52,23 @@ Model read_model(const fs::path& path) {
   return model;
 }
 
+/// What `body` gives; where it throws of `source`, since the library knows no files, of the file instead.
+template <class Body>
+auto naming(const std::string& file, const std::string& source, const Body& body) {
+  try {
+    return body();
+  } catch (const InputError& error) {
+    throw InputError(error.source == source ? file : error.source, error.field, error.found, error.expected);
+  }
+}
+
 std::string complete(const std::string& path, const RgbdFrame& frame, const cuboids::Options& method, const cuboids::Completion& scene,
                      const io::OutputFolder& out, Context& context) {
   const Model model = read_model(path);
   cuboids::ScanCompletionOptions options;
   options.fill = std::min(method.fill, kFullest);
   options.noise = method.noise.value_or(options.noise);
-  const cuboids::ScanCompletion found = cuboids::complete_scan(frame, scene, model.points, options, context);
+  const cuboids::ScanCompletion found = naming(path, "model", [&] { return cuboids::complete_scan(frame, scene, model.points, options, context); });
   write_text(out.file("completed.json"), report::scan_completion_json(found, model.name));
   if (!found.found) {
     context.warn(fmt::format("no object of the scene is like {}: no completed.ply", model.name));
@@ -121,7 +131,7 @@ std::string edit(const std::string& path, const RgbdFrame& frame, const cuboids:
   cuboids::PhotoEditOptions options;
   options.noise = method.noise.value_or(options.noise);
   options.seed = static_cast<std::uint64_t>(method.seed);
-  const cuboids::EditedPhoto edited = cuboids::edit_photo(frame, scene, edits, options, context);
+  const cuboids::EditedPhoto edited = naming(path, "edits", [&] { return cuboids::edit_photo(frame, scene, edits, options, context); });
   io::write_color_png(out.file("edited.png"), edited.width, edited.height, edited.pixels);
   return "photograph edited: edited.png";
 }

@@ -60,6 +60,15 @@ class Cuboids(CliTest):
         self.assertIn("best of 1 model: cube.obj", run.stdout)
         self.assertIn("photograph edited: edited.png", run.stdout)
 
+    def test_applications_name_the_file_that_does_not_fit(self):
+        frames.write_frame(self.folder)
+        (self.folder / "edits.json").write_text(json.dumps({"edits": [{"id": 99, "remove": True}]}))
+        (self.folder / "millimetres.xyz").write_text("".join(f"{200 * (k % 7)} {300 * (k % 5)} {250 * (k % 3)}\n" for k in range(100)))
+        for flag, file, said in (("--edit", "edits.json", "edits[0].id: found 99"), ("--complete", "millimetres.xyz", "size: found")):
+            run = self.unseen("cuboids", "frame.json", "-o", "out", flag, file)
+            self.assertEqual(run.returncode, 3, run.stderr)
+            self.assertIn(f"{file}: {said}", run.stderr)
+
     def test_writes_all_files_and_they_agree(self):
         self.solve()
         out = self.folder / "out"
