@@ -30,6 +30,22 @@ TEST(CloseContacts, LeavesWhatOverlapsFar) {
     EXPECT_LT((a.boxes[i].half_size - problem.cuboids[i].initial.half_size).cwiseAbs().maxCoeff(), 1e-4) << i;
 }
 
+TEST(CloseContacts, MovesNoFaceFarWhereContactsContradictEachOther) {
+  // Two planks that both lie on the same two piers, each a little turned: four contacts of four faces, one of which follows from the others but for rounding.
+  std::vector<OrientedBox> boxes{box({-0.5, 0, 0.1}, {0.2, 0.6, 0.2}), box({0.5, 0, 0.1}, {0.2, 0.6, 0.2}), box({0, -0.15, 0.226}, {1.4, 0.2, 0.05}), box({0, 0.15, 0.226}, {1.4, 0.2, 0.05})};
+  for (const double turn : {0.2, 0.5, 1.0, 1.5}) {
+    std::vector<OrientedBox> turned = boxes;
+    turned[2].axes = Eigen::AngleAxisd(radians(0.3 * turn), Vec3::UnitY()).toRotationMatrix() * turned[2].axes;
+    turned[3].axes = Eigen::AngleAxisd(radians(-0.3 * turn), Vec3::UnitY()).toRotationMatrix() * turned[3].axes;
+    turned[0].axes = Eigen::AngleAxisd(radians(turn), Vec3::UnitX()).toRotationMatrix() * turned[0].axes;
+    const Problem problem = problem_of(turned);
+    Arrangement a = arrange(problem, {});
+    close_contacts(problem, touching_pairs(problem, a), a);
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      EXPECT_LT((a.boxes[i].half_size - problem.cuboids[i].initial.half_size).cwiseAbs().maxCoeff(), 0.02) << i << " " << turn;
+  }
+}
+
 TEST(Hanging, IsNotSaidOfWhatThePictureCutsOff) {
   Problem problem = problem_of({box({0, 0, 0.5}, {0.1, 0.1, 0.1}), box({0.1, 0, 0.5}, {0.1, 0.1, 0.1}), box({1, 0, 0.5}, {0.1, 0.1, 0.1})});
   problem.cut_off = {1, 0, 0};

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kTowards = 0.7;         // cosine between a face's normal and that of a contact
 constexpr double kClosable = 2.0;        // tolerances
+constexpr double kFarthestMove = 2.0;    // of the widest gap: no face needs more to close its own
+constexpr double kLeastFreedom = 1e-6, kMostFreedom = 1e3;  // variance of a contact
 constexpr double kHiddenFreedom = 100.0; // variance of a face that was moved, against 1 of a seen one
 
 /// A variable of a row, and how far it moves the contact.
@@ -61,8 +63,15 @@ void close_contacts(const Problem& problem, const std::vector<Touch>& touches, A
   for (int r = 0; r < count; ++r)
     for (const Part& part : rows[r])
       if (part.variable >= 0) normal.row(r) += part.cosine * spread.row(part.variable);
-  normal.diagonal().array() += 1e-6;  // contacts that contradict each other share the rest
-  const Eigen::VectorXd moves = spread * solve_symmetric(normal, Eigen::Map<const Eigen::VectorXd>(gaps.data(), count));
+  // Contacts that contradict each other share the rest. Where their normals are nearly the same, but not quite, that takes more freedom, or faces run far off.
+  const Eigen::Map<const Eigen::VectorXd> wanted(gaps.data(), count);
+  Eigen::VectorXd moves;
+  for (double freedom = kLeastFreedom; freedom < kMostFreedom; freedom *= 10.0) {
+    Eigen::MatrixXd free = normal;
+    free.diagonal().array() += freedom;
+    moves = spread * solve_symmetric(free, wanted);
+    if (moves.cwiseAbs().maxCoeff() <= kFarthestMove * wanted.cwiseAbs().maxCoeff()) break;
+  }
   double volume = 0.0;
   for (std::size_t i = 0; i < arrangement.boxes.size(); ++i) {
     Extension extension;
