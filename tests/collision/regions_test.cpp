@@ -205,7 +205,8 @@ TEST(Regions, ASpottedBodyThatLingersIsSeenWhole) {
     cv::Mat frame = background.clone();
     const Vec2 center = place(k);
     draw_disc(frame, center, 26.0, cv::Scalar(230, 230, 230));
-    for (double angle = 0.2 * k; angle < 0.2 * k + 6.2; angle += 1.2566) draw_disc(frame, center + 14.0 * Vec2(std::cos(angle), std::sin(angle)), 9.5, cv::Scalar(25, 25, 25));
+    for (double angle = 0.2 * k; angle < 0.2 * k + 6.2; angle += 1.2566)
+      draw_disc(frame, center + 14.0 * Vec2(std::cos(angle), std::sin(angle)), 9.5, cv::Scalar(25, 25, 25));
     add_noise(frame, 2.0, random);
     return frame;
   });

@@ -81,7 +81,8 @@ TEST(PlainColors, PartThreeEqualBoxesOfTwoColors) {
 /// As many cubes of two colours by turns are no stripes.
 TEST(PlainColors, PartCubesOfTwoColorsByTurns) {
   const Scene row = wall(4, 1, {0.15, 0.15, 0.15});
-  EXPECT_EQ(perceive(painted(row, [](const Vec3& p, int) { return static_cast<int>(std::floor((p.x() + 0.3) / 0.15)) % 2 == 0 ? kBlue : kRed; })).cuboids.size(), 4u);
+  const auto by_turns = [](const Vec3& p, int) { return static_cast<int>(std::floor((p.x() + 0.3) / 0.15)) % 2 == 0 ? kBlue : kRed; };
+  EXPECT_EQ(perceive(painted(row, by_turns)).cuboids.size(), 4u);
 }
 
 /// White is the floor's grey in another light.

@@ -32,7 +32,8 @@ TEST(CloseContacts, LeavesWhatOverlapsFar) {
 
 TEST(CloseContacts, MovesNoFaceFarWhereContactsContradictEachOther) {
   // Two planks that both lie on the same two piers, each a little turned: four contacts of four faces, one of which follows from the others but for rounding.
-  std::vector<OrientedBox> boxes{box({-0.5, 0, 0.1}, {0.2, 0.6, 0.2}), box({0.5, 0, 0.1}, {0.2, 0.6, 0.2}), box({0, -0.15, 0.226}, {1.4, 0.2, 0.05}), box({0, 0.15, 0.226}, {1.4, 0.2, 0.05})};
+  const std::vector<OrientedBox> boxes{box({-0.5, 0, 0.1}, {0.2, 0.6, 0.2}), box({0.5, 0, 0.1}, {0.2, 0.6, 0.2}),
+                                       box({0, -0.15, 0.226}, {1.4, 0.2, 0.05}), box({0, 0.15, 0.226}, {1.4, 0.2, 0.05})};
   for (const double turn : {0.2, 0.5, 1.0, 1.5}) {
     std::vector<OrientedBox> turned = boxes;
     turned[2].axes = Eigen::AngleAxisd(radians(0.3 * turn), Vec3::UnitY()).toRotationMatrix() * turned[2].axes;

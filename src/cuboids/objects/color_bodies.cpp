@@ -16,7 +16,8 @@ const double kSameSide = std::cos(radians(15.0));
 
 }  // namespace
 
-std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts, const std::vector<std::vector<ColorRegion>>& regions) {
+std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts,
+                                              const std::vector<std::vector<ColorRegion>>& regions) {
   std::vector<std::pair<int, const ColorRegion*>> region_of_point(seen.points.size(), {-1, nullptr});  // and its part
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (const ColorRegion& region : regions[k])
@@ -27,7 +28,7 @@ std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std
   std::map<std::pair<int, int>, int> links;
   for (int i = 0; i < static_cast<int>(seen.points.size()); ++i)
     for (const int j : seen.graph.neighbours(i))
-      if (region_of_point[i].first >= 0 && region_of_point[i].first < region_of_point[j].first && goes_on(i, j)) ++links[{region_of_point[i].first, region_of_point[j].first}];
+      if (const int a = region_of_point[i].first, b = region_of_point[j].first; a >= 0 && a < b && goes_on(i, j)) ++links[{a, b}];
   std::vector<int> body(parts.size());
   std::iota(body.begin(), body.end(), 0);
   for (const auto& [pair, count] : links) {

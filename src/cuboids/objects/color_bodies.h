@@ -10,6 +10,7 @@ namespace unseen::cuboids {
 
 /// Parts whose regions go on in other parts, on the same side and in the same colour, as where books lie in a pile nearly in line; their points in order.
 /// `regions`: those of each part.
-std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts, const std::vector<std::vector<ColorRegion>>& regions);
+std::vector<std::vector<int>> joined_by_color(const Observation& seen, const std::vector<std::vector<int>>& parts,
+                                              const std::vector<std::vector<ColorRegion>>& regions);
 
 }  // namespace unseen::cuboids
