@@ -20,7 +20,6 @@ constexpr double kSpread = 0.1;      // of the clip, added to the spread in time
 constexpr int kThick = 5;            // px: less is no body
 constexpr double kPlainer = 0.82;    // of the median's total variation
 constexpr int kOff = 6;              // grey levels: less is no ghost
-constexpr double kDrifts = 0.1;     // of the frames, whose colour is hardly farther off: light that changes slowly, and no body
 constexpr int kUnsteady = 6;         // grey levels of the deviation: less does not matter
 constexpr int kPasses = 3;           // that something passes, at most: what flickers or sways departs more often
 constexpr int kAround = 15;          // px, about a ghost, where bodies linger too
@@ -167,8 +166,7 @@ void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::M
         take_best(column, reach, kClearly * best.score, [](const cv::Vec3b&) { return true; }, best, other);
         if (best.count == 0) continue;
         covered.at<unsigned char>(y, x) = 255;
-        other.find(column, color, 2 * reach);
-        if (best.departures <= kPasses && other.count < best.count + kDrifts * static_cast<double>(count)) passed.at<unsigned char>(y, x) = 255;
+        if (best.departures <= kPasses) passed.at<unsigned char>(y, x) = 255;
         describe(column, best, color, spread.at<cv::Vec3b>(y, x));
         const cv::Vec3b dark = color;
         if (take_best(column, reach, kLit * best.score, [&](const cv::Vec3b& c) { return shadow_of(dark, c); }, best, other))
