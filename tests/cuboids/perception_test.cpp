@@ -210,6 +210,22 @@ TEST(Boxes, ALongOneThatLeansALittleLeansSo) {
   }
 }
 
+/// Three faces of each are seen, and none is most of it: alone they would tell of no lean.
+TEST(Boxes, OnASlopeLieAsItDoes) {
+  for (const double slope : {-7.0, 7.0, 9.0}) {
+    Scene scene;
+    scene.boxes = {upright(-0.2, 0.8, 0, {0.14, 0.12, 0.12}, 40), upright(0.15, 0.75, 0, {0.12, 0.16, 0.14}, -35), upright(0.15, 0.75, 0.14, {0.08, 0.1, 0.09}, -35)};
+    RgbdFrame frame = render(scene);
+    const Mat3 rotation = camera_of(scene).rotation;
+    frame.up = rotation.transpose() * (Eigen::AngleAxisd(radians(slope), Vec3(0.6, 0.8, 0)) * Vec3::UnitZ());
+    const Perceived p = perceive(frame);
+    ASSERT_EQ(p.fitted.size(), 3u) << slope;
+    const Mat3 turn = p.seen.T_world_camera.rotation * rotation.transpose();  // from the slope to what is level
+    EXPECT_NEAR(degrees(line_angle(turn.col(2), Vec3::UnitZ())), std::abs(slope), 0.5);
+    for (const Cuboid& cuboid : p.fitted) EXPECT_LT(degrees(line_angle(cuboid.box.axes.col(2), turn.col(2))), 0.7) << slope;
+  }
+}
+
 TEST(Boxes, AnLShapedThingBecomesTwoSlabsOutOfFreeSpace) {
   Scene scene;
   scene.boxes = {upright(-0.05, 0.8, 0, {0.1, 0.1, 0.2}, 0), upright(0.05, 0.8, 0, {0.1, 0.1, 0.05}, 0)};

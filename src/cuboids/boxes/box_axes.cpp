@@ -112,6 +112,32 @@ Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const
   return turn_between(*level, largest->plane.normal).toRotationMatrix() * axes;
 }
 
+/// How far faces are from lying across axes, in standard errors: the sum of the squares.
+double misfit(const Observation& seen, std::span<const Face* const> faces, const Mat3& axes) {
+  double sum = 0;
+  for (const Face* face : faces) {
+    if (!is_along(*face, axes)) continue;
+    const Vec3& n = face->plane.normal;
+    int nearest = 0;
+    (axes.transpose() * n).cwiseAbs().maxCoeff(&nearest);
+    const Vec3 axis = axes.col(nearest), off = axis - axis.dot(n) * n;
+    if (off.norm() > 1e-9) sum += std::pow(line_angle(axis, n) / direction_error(seen, *face, off.normalized()).all(), 2);
+  }
+  return sum;
+}
+
+/// Up-aligned axes, or the same turned like a ground or desk that slopes if the faces follow those rather.
+Mat3 as_carried(const Observation& seen, std::span<const Face* const> faces, const Mat3& level, Mat3 axes) {
+  double least = misfit(seen, faces, axes);
+  for (const Support& support : seen.supports) {
+    const bool carries = support.kind == SupportKind::ground || support.kind == SupportKind::desk;
+    if (!carries || line_angle(support.plane.normal, Vec3::UnitZ()) < kLeastSlant) continue;
+    const Mat3 carried = turn_between(Vec3::UnitZ(), support.plane.normal).toRotationMatrix() * level;
+    if (const double m = misfit(seen, faces, carried); m < least) least = m, axes = carried;
+  }
+  return axes;
+}
+
 /// Axes of the two largest orthogonal faces, or of the largest and the rectangle around its points.
 Mat3 free_axes(const Observation& seen, std::vector<const Face*> faces) {
   std::stable_sort(faces.begin(), faces.end(), [](const Face* a, const Face* b) { return a->area > b->area; });
@@ -176,7 +202,8 @@ Mat3 level_axes(const Observation& seen, const DepthView& view, std::span<const 
     if ((turn + clearest).norm() > kClearer * (turn + told).norm()) told = clearest;
   }
   if (!told.isZero()) yaw = angle(turn + told);
-  return leant(seen, points, faces, turned(std::remainder(yaw, 0.5 * kPi)));
+  const Mat3 level = turned(std::remainder(yaw, 0.5 * kPi));
+  return as_carried(seen, faces, level, leant(seen, points, faces, level));
 }
 
 }  // namespace
