@@ -98,6 +98,25 @@ TEST(Cuts, SlenderLegsAreCutOffATopAndParallelToIt) {  // in their noise no face
   EXPECT_GE(legs, 11);  // of sixteen; the far ones are mostly hidden
 }
 
+/// A bowl of slats that lean outwards: each of its shards would be a box.
+TEST(Cuts, ABowlIsNotCutIntoShards) {
+  for (const int slats : {12, 14, 16, 20})
+    for (const double lean : {30.0, 50.0}) {
+      Scene scene;
+      scene.height = 0.6;
+      const double radius = 0.1;
+      for (int k = 0; k < slats; ++k) {
+        const Mat3 turn = Eigen::AngleAxisd(2.0 * kPi * k / slats, Vec3::UnitZ()).toRotationMatrix();
+        OrientedBox slat;
+        slat.half_size = Vec3(1.25 * radius * std::tan(kPi / slats), 0.005, 0.06);
+        slat.axes = turn * Eigen::AngleAxisd(radians(lean), Vec3::UnitX()).toRotationMatrix();
+        slat.center = Vec3(0, 0.75, 0.055) - turn * Vec3(0, radius, 0);
+        scene.boxes.push_back(slat);
+      }
+      EXPECT_LE(perceive(render(scene)).parts.size(), 5u) << slats << " " << lean;
+    }
+}
+
 TEST(Cuts, AnExactBoxStaysWhole) {  // of a few pixels, each far wider than the noise
   Scene scene;
   scene.noise = 0.0;

@@ -79,5 +79,34 @@ TEST(Fuse, WhatHasOtherColoursIsNotOne) {
   EXPECT_EQ(fused(scene, 0.15, 0.0, {Vec2(30, 10), std::nullopt}).size(), 2u);
 }
 
+/// What a box before a plank divides may reach into each other: both parts were fitted too long.
+TEST(Fuse, PartsThatOverlapLengthwiseAreOne) {
+  Scene scene;
+  scene.boxes = {upright(0, 0.9, 0, {0.6, 0.12, 0.05}, 20)};
+  const RgbdFrame frame = render(scene);
+  Context context;
+  const Observation seen = observe(frame, {}, context);
+  const DepthView view(frame, seen.T_world_camera, depth_noise(frame, {}));
+  const auto after = [&](double overlap) {
+    std::vector<Cuboid> cuboids(2);
+    for (int k = 0; k < 2; ++k) {
+      cuboids[k].initial = scene.boxes[0];
+      const double length = k == 0 ? 0.4 : 0.2 + overlap;
+      cuboids[k].initial.half_size.x() = 0.5 * length;
+      cuboids[k].initial.center += (k == 0 ? 0.5 * length - 0.3 : 0.3 - 0.5 * length) * scene.boxes[0].axes.col(0);
+      cuboids[k].visible_points = 1000;
+    }
+    std::vector<double> tolerance = contact_tolerance(view, cuboids);
+    fuse_pieces(view, cuboids, tolerance);
+    return cuboids;
+  };
+  for (const double overlap : {0.0, 0.03, 0.06}) {
+    const std::vector<Cuboid> cuboids = after(overlap);
+    ASSERT_EQ(cuboids.size(), 1u) << overlap;
+    EXPECT_LT((cuboids[0].initial.half_size - scene.boxes[0].half_size).norm(), 1e-9) << overlap;
+  }
+  EXPECT_EQ(after(0.15).size(), 2u);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test

@@ -26,8 +26,9 @@ constexpr double kFlat = 0.9;               // of the points, on sides of boxes
 constexpr double kNearlyFlat = 0.8, kLessRest = 1.0 / 3.0;  // the same, where so much less is on none than before the cut: round spines and edges
 constexpr double kVeryHollow = 0.25, kMostly = 0.6;         // of a hull; of the points, of pieces that each are a box
 constexpr int kFewestFlatPoints = 24;
+constexpr std::size_t kFewestShards = 3;
 constexpr double kTellingSigmas = 8.0;  // of the second of a box's sides: what is thinner is near its surface in any case
-const double kParallelCosine = std::cos(radians(10.0));
+const double kParallelCosine = std::cos(radians(10.0)), kLeaningCosine = std::cos(radians(15.0));
 
 /// Parts the faces that lie along the axes from those that do not, as of a plank that leans on a crate. A face along the axes that borders mostly on
 /// ones that are not is of theirs: the narrow side of the plank. What is of no face, or of a sliver along an edge, goes with the nearest.
@@ -153,6 +154,19 @@ bool are_boxes(const Observation& seen, const DepthView& view, const std::vector
   return share >= kFlat || (share >= kNearlyFlat && 1.0 - share <= kLessRest * (1.0 - explained_whole));
 }
 
+/// Whether more than half of the points of several pieces are of ones that lean: shards of a bowl.
+bool are_shards(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, const Mat3& axes) {
+  if (pieces.size() < kFewestShards) return false;
+  const GroupedFaces faces = faces_of(seen, pieces);
+  std::size_t all = 0, leaning = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Vec3 up = box_axes(seen, view, pieces[k].points, faces.of_group[k], false).col(2);
+    all += pieces[k].points.size();
+    if (std::abs(up.dot(axes.col(2))) < kLeaningCosine) leaning += pieces[k].points.size();
+  }
+  return 2 * leaning > all;
+}
+
 }  // namespace
 
 std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view, std::vector<ObjectPart> parts, Context& context) {
@@ -188,7 +202,7 @@ std::vector<ObjectPart> cut_parts(const Observation& seen, const DepthView& view
         continue;
       }
       pieces = cut_apart(seen, interior, planes_before(seen, own, points.size()), whole, hollow, context);
-      if (pieces.size() < 2 || !are_boxes(seen, view, pieces, look, explained)) keep(std::move(points));
+      if (pieces.size() < 2 || !are_boxes(seen, view, pieces, look, explained) || are_shards(seen, view, pieces, interior.axes)) keep(std::move(points));
       else
         for (Piece& piece : pieces) keep(std::move(piece.points));
     }

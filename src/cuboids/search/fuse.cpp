@@ -18,6 +18,7 @@ constexpr double kSameYaw = 10.0;  // deg: what two visible parts of one box may
 constexpr double kKnownObject = 0.4;  // share that may be free where a label says that parts are one: boxes only resemble things
 const double kLeansCosine = std::cos(radians(5.0));
 constexpr double kLeansInto = 0.25;  // share of what the whole adds to its parts, in what it leans on
+constexpr double kOverlap = 0.3;  // of the shorter part's length: parts of one box may each reach into the other
 constexpr double kSpacings = 3.0;  // between pixels, that an edge may be off
 constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
 
@@ -76,33 +77,35 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
   if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack && a.level != b.level)) return std::nullopt;
   if (!a.label.empty()) return joined_object(view, a, b, tolerance);
   if (a.tint && b.tint && are_other_tints(*a.tint, *b.tint)) return std::nullopt;
+  if (a.visible_points + b.visible_points == 0) return std::nullopt;  // nothing was seen of either
   const auto axes_b = aligned_axes(a.initial, b.initial);
   if (!axes_b) return std::nullopt;
-  const double share = static_cast<double>(a.visible_points) / static_cast<double>(a.visible_points + b.visible_points);
-  Mat3 axes = share * a.initial.axes + (1.0 - share) * *axes_b;
+  const double weight = static_cast<double>(a.visible_points) / static_cast<double>(a.visible_points + b.visible_points);
+  Mat3 axes = weight * a.initial.axes + (1.0 - weight) * *axes_b;
   axes.col(2).normalize();
   axes.col(0) = (axes.col(0) - axes.col(0).dot(axes.col(2)) * axes.col(2)).normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
   // What the turn of either may be wrong by moves the other's ends.
   const double turned = 0.5 * line_angle(a.initial.axes.col(0), axes_b->col(0)) * (a.initial.center - b.initial.center).norm();
-  std::array<Span, 3> spans;
-  int apart = -1;
+  std::array<Span, 3> of_a, of_b, spans;
   for (int k = 0; k < 3; ++k) {
-    const Vec3 axis = axes.col(k);
-    const Span first = span_along(a.initial, axis), second = span_along(b.initial, axis);
-    spans[k] = {std::min(first.low, second.low), std::max(first.high, second.high)};
-    if (std::max(first.low, second.low) > std::min(first.high, second.high) - tolerance) {
-      if (apart >= 0) return std::nullopt;
-      apart = k;
-      continue;
-    }
-    // One end of both lies in one plane; where the other one of the shorter part ends, something hides it.
-    if (std::min(std::abs(first.low - second.low), std::abs(first.high - second.high)) > 2.0 * tolerance + std::min(turned, tolerance)) return std::nullopt;
+    of_a[k] = span_along(a.initial, axes.col(k)), of_b[k] = span_along(b.initial, axes.col(k));
+    spans[k] = {std::min(of_a[k].low, of_b[k].low), std::max(of_a[k].high, of_b[k].high)};
   }
-  if (apart < 0) return std::nullopt;
+  const auto overlap = [&](int k) { return std::min(of_a[k].high, of_b[k].high) - std::max(of_a[k].low, of_b[k].low); };
+  const auto share = [&](int k) { return overlap(k) <= tolerance ? 0.0 : overlap(k) / std::min(of_a[k].high - of_a[k].low, of_b[k].high - of_b[k].low); };
+  int apart = 0;
+  for (int k = 1; k < 3; ++k)
+    if (share(k) < share(apart)) apart = k;
+  if (share(apart) > kOverlap) return std::nullopt;
+  for (int k = 0; k < 3; ++k) {
+    if (k == apart) continue;
+    if (share(k) == 0.0) return std::nullopt;
+    // One end of both lies in one plane; where the other one of the shorter part ends, something hides it.
+    if (std::min(std::abs(of_a[k].low - of_b[k].low), std::abs(of_a[k].high - of_b[k].high)) > 2.0 * tolerance + std::min(turned, tolerance)) return std::nullopt;
+  }
   const OrientedBox whole = box_of(axes, spans);
-  const Span first = span_along(a.initial, axes.col(apart)), second = span_along(b.initial, axes.col(apart));
-  spans[apart] = {std::min(first.high, second.high), std::max(first.low, second.low)};
+  spans[apart] = {std::min(of_a[apart].high, of_b[apart].high), std::max(of_a[apart].low, of_b[apart].low)};
   const bool is_gap = spans[apart].high > spans[apart].low;
   const OrientedBox gap = box_of(axes, spans);
   if (is_gap && (!in_hidden_space(view, {}, gap, tolerance) || is_groove(view, gap, apart))) return std::nullopt;
