@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "io/text.h"
@@ -165,9 +166,10 @@ std::vector<Object> read_objects(const fs::path& truth) {
   return objects;
 }
 
-std::vector<int> read_interacted(const fs::path& path, const std::vector<Object>& objects) {
+/// None without such a file.
+std::optional<std::vector<int>> read_interacted(const fs::path& path, const std::vector<Object>& objects) {
   std::error_code error;
-  if (!fs::exists(path, error)) return {};
+  if (!fs::exists(path, error)) return std::nullopt;
   const nlohmann::json parsed = io::parse_json(io::read_text_file(path, kLargestText), path.string(), "a list of ids");
   std::set<int> known, ids;
   for (const Object& object : objects) known.insert(object.id);
@@ -176,7 +178,7 @@ std::vector<int> read_interacted(const fs::path& path, const std::vector<Object>
     if (known.count(id) == 0) field.fail("the id of an object");
     ids.insert(id);
   }
-  return {ids.begin(), ids.end()};
+  return std::vector<int>(ids.begin(), ids.end());
 }
 
 }  // namespace
@@ -197,7 +199,9 @@ Recording read_recording(const fs::path& folder) {
     read_actions(truth / (p == 0 ? "actions.txt" : fmt::format("actions-{}.txt", p)), r.people.back());
   }
   r.objects = read_objects(truth);
-  r.interacted = read_interacted(truth / "interacted.json", r.objects);
+  const std::optional<std::vector<int>> used = read_interacted(truth / "interacted.json", r.objects);
+  r.uses_known = used.has_value();
+  r.interacted = used.value_or(std::vector<int>{});
   bring_to_world(r);
   return r;
 }

@@ -122,6 +122,8 @@ TEST(Evaluate, WhatNobodyUsesIsNeitherHitNorFalse) {
   Recording unknown = t;
   unknown.interacted.clear();
   EXPECT_EQ(evaluate(r, unknown).interacted, 3) << "not known who uses what: all count";
+  unknown.uses_known = true;
+  EXPECT_EQ(evaluate(r, unknown).interacted, 0) << "nobody uses any";
 }
 
 TEST(Evaluate, ManyBoxesOfOneObjectAreOneObject) {

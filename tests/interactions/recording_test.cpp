@@ -79,6 +79,9 @@ TEST(RecordingRead, WithoutObjectsTheFloorIsBelowTheFeet) {
   truth.T_world_camera.rotation << 1, 0, 0, 0, 0, 1, 0, -1, 0;
   write_scene(folder, truth);
   EXPECT_NEAR(read_recording(folder.path()).T_world_camera.translation.z(), 1.37, 1e-9) << "ankles are 0.1 m high";
+  EXPECT_TRUE(read_recording(folder.path()).uses_known) << "nobody uses any";
+  fs::remove(folder.path() / "gt/interacted.json");
+  EXPECT_FALSE(read_recording(folder.path()).uses_known);
 }
 
 TEST(RecordingRead, WhatIsMissingOrWrongIsNamed) {

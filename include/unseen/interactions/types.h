@@ -96,7 +96,8 @@ struct Recording {
   RigidTransform T_world_camera;
   std::vector<std::vector<RecordedFrame>> people;  ///< each by frame; only frames whose pose is valid
   std::vector<Object> objects;
-  std::vector<int> interacted;  ///< ids of the objects that somebody uses; empty = not known
+  std::vector<int> interacted;  ///< ids of the objects that somebody uses
+  bool uses_known = false;      ///< an empty list of these means that nobody uses any; else that it is not known
 };
 
 struct FoundObject {

@@ -59,6 +59,7 @@ void record(Recording& truth, const Cast& cast, const View& view, int frames, co
       truth.people[p].push_back({f, figures[p].pose, hidden_joints(view.T_world_camera.translation, figures, p, truth.objects), actions[p], true});
   }
   truth.interacted.assign(touched.begin(), touched.end());
+  truth.uses_known = true;
 }
 
 /// A detector does not know who is who: people come in any order.
