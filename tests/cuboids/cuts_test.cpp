@@ -113,7 +113,7 @@ TEST(Cuts, ABowlIsNotCutIntoShards) {
         slat.center = Vec3(0, 0.75, 0.055) - turn * Vec3(0, radius, 0);
         scene.boxes.push_back(slat);
       }
-      EXPECT_LE(perceive(render(scene)).parts.size(), 5u) << slats << " " << lean;
+      EXPECT_LE(perceive(render(scene)).parts.size(), 4u) << slats << " " << lean;
     }
 }
 

@@ -10,12 +10,15 @@
 
 #include "core/linear.h"
 #include "cuboids/boxes/outline.h"
+#include "cuboids/surfaces/supports.h"
+#include "unseen/core/convex.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::cuboids {
 namespace {
 
-const double kAlignedCosine = std::cos(radians(8.0));
+const double kMostOff = radians(8.0), kAlignedCosine = std::cos(kMostOff);
+const double kSteepest = std::cos(radians(45.0));  // of a support on which things stand
 const double kLeastSlant = radians(2.0), kMostLean = radians(15.0);
 constexpr double kTurningArea = 0.1;  // of the largest face, that tells how it is turned within its plane …
 const double kStandingSine = std::sin(radians(30.0)), kTurnedSine = std::sin(radians(5.0));  // … by so much, where it is so far from level
@@ -112,30 +115,42 @@ Mat3 leant(const Observation& seen, std::span<const int> points, std::span<const
   return turn_between(*level, largest->plane.normal).toRotationMatrix() * axes;
 }
 
-/// How far faces are from lying across axes, in standard errors: the sum of the squares.
+/// How far faces are from lying across axes, in standard errors: the sum of the squares. What lies along none of them counts as if it just did.
 double misfit(const Observation& seen, std::span<const Face* const> faces, const Mat3& axes) {
   double sum = 0;
   for (const Face* face : faces) {
-    if (!is_along(*face, axes)) continue;
     const Vec3& n = face->plane.normal;
     int nearest = 0;
     (axes.transpose() * n).cwiseAbs().maxCoeff(&nearest);
     const Vec3 axis = axes.col(nearest), off = axis - axis.dot(n) * n;
-    if (off.norm() > 1e-9) sum += std::pow(line_angle(axis, n) / direction_error(seen, *face, off.normalized()).all(), 2);
+    if (off.norm() > 1e-9) sum += std::pow(std::min(line_angle(axis, n), kMostOff) / direction_error(seen, *face, off.normalized()).all(), 2);
   }
   return sum;
 }
 
-/// Up-aligned axes, or the same turned like a ground or desk that slopes if the faces follow those rather.
-Mat3 as_carried(const Observation& seen, std::span<const Face* const> faces, const Mat3& level, Mat3 axes) {
-  double least = misfit(seen, faces, axes);
+/// The ground or desk on which things at a place stand: the nearest below it.
+const Support* carrier_of(const Observation& seen, const Vec3& place) {
+  const Support* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
   for (const Support& support : seen.supports) {
-    const bool carries = support.kind == SupportKind::ground || support.kind == SupportKind::desk;
-    if (!carries || line_angle(support.plane.normal, Vec3::UnitZ()) < kLeastSlant) continue;
-    const Mat3 carried = turn_between(Vec3::UnitZ(), support.plane.normal).toRotationMatrix() * level;
-    if (const double m = misfit(seen, faces, carried); m < least) least = m, axes = carried;
+    if (support.kind != SupportKind::ground && support.kind != SupportKind::desk) continue;
+    const double above = support.plane.signed_distance(place);
+    if (support.plane.normal.z() < kSteepest || above < 0.0 || above >= least) continue;
+    if (support.kind == SupportKind::desk && !inside_convex(plan_of(support), place.head<2>(), 0.0)) continue;
+    least = above, nearest = &support;
   }
-  return axes;
+  return nearest;
+}
+
+/// Up-aligned axes, or the same turned like what carries these faces, if that slopes and they follow it as well.
+Mat3 as_carried(const Observation& seen, std::span<const Face* const> faces, const Mat3& level, const Mat3& axes) {
+  if (faces.empty()) return axes;
+  Vec3 place = Vec3::Zero();
+  for (const Face* face : faces) place += face->center / static_cast<double>(faces.size());
+  const Support* carrier = carrier_of(seen, place);
+  if (!carrier || line_angle(carrier->plane.normal, Vec3::UnitZ()) < kLeastSlant) return axes;
+  const Mat3 carried = turn_between(Vec3::UnitZ(), carrier->plane.normal).toRotationMatrix() * level;
+  return misfit(seen, faces, carried) <= misfit(seen, faces, axes) ? carried : axes;
 }
 
 /// Axes of the two largest orthogonal faces, or of the largest and the rectangle around its points.
@@ -225,7 +240,9 @@ Mat3 box_axes(const Observation& seen, const DepthView& view, std::span<const in
   const double share = explained_share(points, faces, free);
   if (share < kEnoughExplained || share < explained_share(points, faces, level) + kMuchMore) return level;
   const bool leans = std::any_of(faces.begin(), faces.end(), [&](const Face* face) { return leans_from(seen, *face, kSlantSigmas).has_value(); });
-  return leans ? free : turned(std::atan2(free(1, 0), free(0, 0)));
+  if (leans) return free;
+  const Mat3 flat = turned(std::atan2(free(1, 0), free(0, 0)));
+  return as_carried(seen, faces, flat, flat);
 }
 
 }  // namespace unseen::cuboids

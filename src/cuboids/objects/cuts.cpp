@@ -27,6 +27,7 @@ constexpr double kNearlyFlat = 0.8, kLessRest = 1.0 / 3.0;  // the same, where s
 constexpr double kVeryHollow = 0.25, kMostly = 0.6;         // of a hull; of the points, of pieces that each are a box
 constexpr int kFewestFlatPoints = 24;
 constexpr std::size_t kFewestShards = 3;
+constexpr double kOneWay = 0.7;  // of pieces that lean: books on a shelf
 constexpr double kTellingSigmas = 8.0;  // of the second of a box's sides: what is thinner is near its surface in any case
 const double kParallelCosine = std::cos(radians(10.0)), kLeaningCosine = std::cos(radians(15.0));
 
@@ -154,17 +155,21 @@ bool are_boxes(const Observation& seen, const DepthView& view, const std::vector
   return share >= kFlat || (share >= kNearlyFlat && 1.0 - share <= kLessRest * (1.0 - explained_whole));
 }
 
-/// Whether more than half of the points of several pieces are of ones that lean: shards of a bowl.
-bool are_shards(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, const Mat3& axes) {
+/// Whether more than half of the points of several pieces are of ones that lean from the whole, and that all round: shards of a bowl.
+bool are_shards(const Observation& seen, const DepthView& view, const std::vector<Piece>& pieces, const Mat3& whole) {
   if (pieces.size() < kFewestShards) return false;
   const GroupedFaces faces = faces_of(seen, pieces);
-  std::size_t all = 0, leaning = 0;
+  double all = 0, leaning = 0;
+  Vec3 leans = Vec3::Zero();  // which way
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const Vec3 up = box_axes(seen, view, pieces[k].points, faces.of_group[k], false).col(2);
-    all += pieces[k].points.size();
-    if (std::abs(up.dot(axes.col(2))) < kLeaningCosine) leaning += pieces[k].points.size();
+    const double count = static_cast<double>(pieces[k].points.size());
+    const Vec3 up = whole.transpose() * box_axes(seen, view, pieces[k].points, faces.of_group[k], false).col(2);
+    all += count;
+    if (up.cwiseAbs().maxCoeff() > kLeaningCosine) continue;
+    leaning += count;
+    leans += count * Vec3(up.x(), up.y(), 0).normalized();
   }
-  return 2 * leaning > all;
+  return leaning > 0.5 * all && leans.norm() < kOneWay * leaning;
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ bool is_groove(const DepthView& view, const OrientedBox& gap, int apart) {
 }
 
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
-/// are apart along the third, and what the whole adds to them is hidden.
+/// are apart along the third or overlap by little of the shorter, and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
   if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack && a.level != b.level)) return std::nullopt;
   if (!a.label.empty()) return joined_object(view, a, b, tolerance);
