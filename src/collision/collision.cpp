@@ -163,6 +163,20 @@ bool solve_with_told_camera(const Shot& shot, const Options& options, const std:
   return true;
 }
 
+/// The same with two spheres exchanged that were taken for each other, as their sizes say once gravity tells how far away each is.
+void exchange_by_size(const Shot& shot, const Options& options, const std::array<Solid, 2>& solids, Evidence& evidence, std::vector<SolvedImpact>& impacts, Context& context) {
+  if (evidence.tracks.told_apart || impacts.empty() || !look_exchanged(impacts.front().solution)) return;
+  Context quiet = context;
+  quiet.on_message = nullptr;
+  quiet.on_progress = nullptr;
+  Tracks tracks = evidence.tracks;
+  exchange_bodies(tracks);
+  std::vector<SolvedImpact> exchanged = solve_all_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, quiet);
+  if (exchanged.size() < impacts.size() || look_exchanged(exchanged.front().solution)) return;
+  evidence.tracks = std::move(tracks);
+  impacts = std::move(exchanged);
+}
+
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
   Summary& summary = result.summary;
   if (shot.bodies.size() != 2) throw InputError(shot.name, "bodies", std::to_string(shot.bodies.size()), "two");
@@ -187,6 +201,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
     const Stage stage(context, summary, "positions");
     impacts = solve_all_positions(shot, options, evidence.camera, solids, tracks, evidence.fps, context);
     const bool told = solve_with_told_camera(shot, options, solids, evidence, impacts, context);
+    exchange_by_size(shot, options, solids, evidence, impacts, context);
     warn_of_camera(evidence.camera, told, context);
     result.camera = evidence.camera.camera;
   }

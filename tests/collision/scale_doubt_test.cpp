@@ -5,6 +5,10 @@
 
 #include <algorithm>
 
+#include "collision/doubts/scale_doubt.h"
+#include "collision/shot_problem.h"
+#include "collision/solve_impacts.h"
+#include "collision/tracks/tracks.h"
 #include "collision/two_balls.h"
 
 namespace unseen::collision::test {
@@ -46,6 +50,30 @@ TEST(ScaleDoubt, OfSizesOrAFrameRateThatAreWrongIsCounted) {
 
 TEST(ScaleDoubt, OfRightSizesIsNone) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) EXPECT_FALSE(warns(solved(shot(seed)))) << seed;
+}
+
+/// Each ball given the other's size: what gravity says of how far away each is tells that, whatever the frame rate; sizes that hardly differ do not.
+TEST(ScaleDoubt, TellsBallsThatWereTakenForEachOther) {
+  const auto exchanged = [](double other, double rate, bool swapped, std::uint64_t seed) {
+    Shot s = two_balls({0.4, 40, -10, 120, {1.0, 0.2, 0.3}, 0.3, seed});
+    for (Sighting& seen : s.observations)
+      if (seen.body == 0) seen.radius *= other;
+    s.bodies[swapped ? 1 : 0].radius *= other;
+    *s.fps *= rate;
+    Context context;
+    const ShotCamera camera = complete_camera(s, 1280, 720);
+    Tracks tracks = find_tracks(s, camera, s.observations, *s.fps, context);
+    const std::vector<SolvedImpact> impacts = solve_positions(s, {}, camera, {solid_of(s.bodies[0], ""), solid_of(s.bodies[1], "")}, tracks, *s.fps, context);
+    EXPECT_EQ(impacts.size(), 1u);
+    return !impacts.empty() && look_exchanged(impacts.front().solution);
+  };
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    for (const double other : {0.9, 1.1})
+      for (const double rate : {0.95, 1.0, 1.05}) {
+        EXPECT_TRUE(exchanged(other, rate, true, seed)) << other << " " << rate << " " << seed;
+        EXPECT_FALSE(exchanged(other, rate, false, seed)) << other << " " << rate << " " << seed;
+      }
+  EXPECT_FALSE(exchanged(1.02, 1.0, true, 1));
 }
 
 }  // namespace

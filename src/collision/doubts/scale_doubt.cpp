@@ -12,6 +12,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kScale = 0.05;       // share by which size and gravity may differ
+constexpr double kOtherSize = 0.08;   // share by which the sizes of two bodies fit better if these are exchanged
 constexpr double kOtherScale = 0.15;  // the same for bodies whose projected size depends on how they are turned
 
 std::optional<double> scale_ratio(const Solution& solution, int body) {
@@ -38,6 +39,15 @@ ScaleRatios scale_ratios(const Solution& solution) {
 }
 
 bool is_another_scale(const Solid& solid, double ratio) { return std::abs(ratio - 1.0) > (solid.is_sphere() ? kScale : kOtherScale); }
+
+bool look_exchanged(const Solution& solution) {
+  const auto& solids = solution.problem.solids;
+  if (solution.problem.fixed || !solids[0].is_sphere() || !solids[1].is_sphere()) return false;
+  const ScaleRatios ratios = scale_ratios(solution);
+  if (!ratios[0] || !ratios[1]) return false;
+  const double off = std::log(*ratios[0] / *ratios[1]), exchanged = off + 2.0 * std::log(solids[1].radius / solids[0].radius);
+  return std::abs(exchanged) < std::abs(off) - kOtherSize;
+}
 
 ScaleError error_by_scale(const Solution& solution, const ScaleRatios& ratios) {
   Problem problem = solution.problem;

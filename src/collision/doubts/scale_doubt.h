@@ -16,6 +16,10 @@ ScaleRatios scale_ratios(const Solution& solution);
 /// Whether such a ratio is more than noise and projection explain.
 bool is_another_scale(const Solid& solid, double ratio);
 
+/// Whether two spheres would be as large, beside each other, as they look from where gravity has them, if each were the other one, and clearly are not
+/// as they are. A wrong frame rate makes both too large, or too small.
+bool look_exchanged(const Solution& solution);
+
 /// Standard deviations.
 struct ScaleError {
   double restitution = 0, mass_ratio = 0;

@@ -43,6 +43,12 @@ struct Tracks {
   int collisions_seen = 0;          ///< more than one for two free bodies: the shot has several collisions
 };
 
+/// Takes each of two free bodies for the other.
+inline void exchange_bodies(Tracks& tracks) {
+  for (FlightSpan& span : tracks.spans) span.body = 1 - span.body;
+  for (TrackPoint& point : tracks.points) point.body = 1 - point.body;
+}
+
 /// Tracks from the regions of a video, or from sightings. `camera` carries the image size; intrinsics are complete.
 Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const Footage& footage, Context& context);
 Tracks find_tracks(const Shot& shot, const ShotCamera& camera, const std::vector<Sighting>& sightings, double fps, Context& context);

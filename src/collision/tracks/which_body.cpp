@@ -181,8 +181,7 @@ void label_by_shape(const Shot& shot, const ShotCamera& camera, const Footage& f
   }
   tracks.told_apart = std::abs(cost[0] - cost[1]) > kClear;
   if (cost[1] >= cost[0] || !tracks.told_apart) return;
-  for (FlightSpan& span : tracks.spans) span.body = 1 - span.body;
-  for (TrackPoint& point : tracks.points) point.body = 1 - point.body;
+  exchange_bodies(tracks);
 }
 
 }  // namespace unseen::collision
