@@ -52,5 +52,21 @@ TEST(Slopes, OfADeskAboveThemLeaveBoxesLevel) {  // a drawing table whose plane 
   }
 }
 
+TEST(Slopes, OfAGivenDeskCarryWhatIsOnIt) {
+  Scene scene;
+  scene.boxes = {upright(-0.2, 0.8, 0, {0.14, 0.12, 0.12}, 40), upright(0.15, 0.75, 0, {0.12, 0.16, 0.14}, -35)};
+  RgbdFrame frame = render(scene);
+  const RigidTransform T = camera_of(scene);
+  const Vec3 up = Eigen::AngleAxisd(radians(8.0), Vec3(0.6, 0.8, 0)) * Vec3::UnitZ();
+  const auto seen = [&](const Vec3& normal, const Vec3& on) { return Plane{T.rotation.transpose() * normal, normal.dot(on - T.translation)}; };
+  frame.up = T.rotation.transpose() * up;
+  frame.supports = {{seen(up, Vec3(0, 0.8, -0.7)), "ground"}, {seen(Vec3::UnitZ(), Vec3::Zero()), "desk"}};
+  const Perceived p = perceive(frame);
+  ASSERT_EQ(p.fitted.size(), 2u);
+  const Vec3 normal = p.seen.T_world_camera.rotation * T.rotation.row(2).transpose();
+  EXPECT_NEAR(degrees(line_angle(normal, Vec3::UnitZ())), 8.0, 0.5);
+  for (const Cuboid& cuboid : p.fitted) EXPECT_LT(degrees(line_angle(cuboid.box.axes.col(2), normal)), 0.7);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test

@@ -136,7 +136,8 @@ const Support* carrier_of(const Observation& seen, const Vec3& place) {
     if (support.kind != SupportKind::ground && support.kind != SupportKind::desk) continue;
     const double above = support.plane.signed_distance(place);
     if (support.plane.normal.z() < kSteepest || above < 0.0 || above >= least) continue;
-    if (support.kind == SupportKind::desk && !inside_convex(plan_of(support), place.head<2>(), 0.0)) continue;
+    const std::vector<Vec2> plan = plan_of(support);
+    if (support.kind == SupportKind::desk && !plan.empty() && !inside_convex(plan, place.head<2>())) continue;
     least = above, nearest = &support;
   }
   return nearest;

@@ -25,8 +25,8 @@ std::vector<Piece> true_pieces(const Recording& truth, bool interacted) {
   std::vector<Piece> pieces;
   for (const Object& o : truth.objects) {
     const auto& ids = truth.interacted;
-    const bool any = ids.empty() && !truth.uses_known;  // all count
-    if ((any || std::find(ids.begin(), ids.end(), o.id) != ids.end()) != interacted) continue;
+    const bool all_count = ids.empty() && !truth.uses_known;
+    if ((all_count || std::find(ids.begin(), ids.end(), o.id) != ids.end()) != interacted) continue;
     pieces.push_back({o.id, o.category, {o.center().head<2>()}});
   }
   return pieces;
