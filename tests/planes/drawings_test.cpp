@@ -252,6 +252,30 @@ TEST(Drawings, AWallThatOthersEndOnIsOneLine) {
   EXPECT_NEAR(longest, 900, 2);
 }
 
+/// Their corners say how exactly houses are built, and so how little turns one against another by chance.
+TEST(Drawings, HousesOfASitePlanKeepTheirTurns) {
+  PointCloud cloud;
+  Random random(6);
+  std::vector<std::pair<Vec3, double>> houses;
+  for (const double turn : {0.0, 0.8, 1.6, 2.5, 3.3, 4.1}) {
+    const Vec3 center(25.0 * static_cast<double>(houses.size() % 3), 25.0 * static_cast<double>(houses.size() / 3), 0);
+    houses.emplace_back(center, turn);
+    for (int i = 0; i < 800; ++i) {
+      const double along = 0.05 * i, x = std::clamp(along < 20 ? along : 32 - along, 0.0, 12.0), y = std::clamp(along < 20 ? along - 12 : 40 - along, 0.0, 8.0);
+      const Vec3 p(x - 6 + 0.004 * random.normal(), y - 4 + 0.004 * random.normal(), 0);
+      cloud.positions.push_back(center + Eigen::AngleAxisd(radians(turn), Vec3::UnitZ()) * p);
+    }
+  }
+  const Arrangement a = test::run(cloud, {}).result;
+  EXPECT_EQ(a.planes.size(), 24u);
+  for (const ArrangedPlane& p : a.planes) {
+    const Vec3 d = (*p.segment)[1] - (*p.segment)[0], middle = 0.5 * ((*p.segment)[0] + (*p.segment)[1]);
+    const auto house = std::min_element(houses.begin(), houses.end(), [&](const auto& h, const auto& g) { return (h.first - middle).norm() < (g.first - middle).norm(); });
+    const double angle = degrees(std::atan2(d.y(), d.x()));
+    EXPECT_LT(std::min(apart(angle, house->second), apart(angle, house->second + 90)), 0.2) << house->second;
+  }
+}
+
 /// Points of a drawing in a plane other than z = 0 are noticed, and the lines lie in it.
 TEST(Drawings, AnyCoordinatePlaneWillDo) {
   SynthOptions synth;

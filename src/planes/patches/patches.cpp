@@ -12,6 +12,8 @@
 namespace unseen::planes {
 namespace {
 
+constexpr double kBeside = 1.6, kBesideInDrawings = 2.5;  // of the reach: where patches adjoin; lines end before the corner, whose cells have no normal
+
 /// Half the median rms of regions, and no less than rounding leaves.
 double least_noise_of(const VoxelGrid& grid, const Space& space, const CellSets& regions) {
   if (regions.empty()) return 0.0;
@@ -27,7 +29,8 @@ void sort_unique(Pairs& pairs) {
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
-void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Patches& result, const Context& context) {
+void find_neighbours(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle, Patches& result, const Context& context) {
+  const double beside_within = space.is_2d() ? kBesideInDrawings : kBeside;
   const std::vector<int>& patch_of_cell = result.patch_of_cell;
   std::vector<int> parent;
   VoxelGrid coarse = grid.coarser(parent, context);  // voxels of edge ρ
@@ -45,7 +48,7 @@ void find_neighbours(const VoxelGrid& grid, const Cells& cells, double angle, Pa
     auto it = std::find_if(list.begin(), list.end(), [&](const Member& m) { return m.patch == patch; });
     if (it == list.end()) it = list.insert(it, {patch, {}, cells.normal[i], 0.0});
     it->box.extend(grid.moments[i].mean);
-    it->reach = std::max(it->reach, 1.6 * cells.reach[i]);
+    it->reach = std::max(it->reach, beside_within * cells.reach[i]);
   }
   const auto voxels_within = [&](const Member& m) { return static_cast<int>(m.reach / coarse.edge); };
   std::vector<int> reach(coarse.size(), 0);
@@ -106,7 +109,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   result.patch_of_cell.assign(grid.size(), -1);
   for (std::size_t j = 0; j < result.patches.size(); ++j)
     for (const int i : result.patches[j].cells) result.patch_of_cell[i] = static_cast<int>(j);
-  find_neighbours(grid, cells, angle, result, context);
+  find_neighbours(grid, cells, space, angle, result, context);
   if (!space.is_2d()) mark_bowed(grid, context, result);
   return result;
 }

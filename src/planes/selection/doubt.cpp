@@ -77,10 +77,11 @@ double doubt_of(std::vector<std::pair<double, double>> squares) {
   return std::clamp(safety * std::sqrt(weighted_quantile(std::move(squares), kQuantile) / kUsual), kLeast, 1.0);
 }
 
-/// Variance (rad²) of a patch's tilt about an axis in it.
+/// Variance (rad²) of a patch's tilt about an axis in it. A line's tilt out of its drawing has none that is finite, and no share.
 double variance_about(const Patch& patch, const Vec3& axis, double variance_u, double variance_v) {
   const Vec3 tilt = axis.cross(patch.fit.normal);
-  return std::pow(tilt.dot(patch.fit.u), 2) * variance_u + std::pow(tilt.dot(patch.fit.v), 2) * variance_v;
+  const double u = std::pow(tilt.dot(patch.fit.u), 2), v = std::pow(tilt.dot(patch.fit.v), 2);
+  return (u > 1e-12 ? u * variance_u : 0) + (v > 1e-12 ? v * variance_v : 0);
 }
 
 }  // namespace
@@ -121,8 +122,7 @@ Selection select_as_built(Patches& patches, const AngleSet& angles, const Space&
   if (selection.local_fits) return selection;
   double doubt = 1;
   for (int again = 0; again < kAgain && doubt > kLeast; ++again) {
-    double shown = shown_doubt(patches, selection, local_directions(angles, space));
-    if (!space.is_2d()) shown = std::min(shown, doubt_at_edges(patches, angles));
+    const double shown = std::min(shown_doubt(patches, selection, local_directions(angles, space)), doubt_at_edges(patches, angles));
     if (shown > kMuchLess) break;
     const double less = std::max(kLeast, doubt * shown);
     reduce_doubt(patches, doubt, less);
