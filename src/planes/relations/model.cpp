@@ -119,6 +119,21 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
   });
 }
 
+/// Lets patches go with the largest one that they adjoin, if that was set free from the direction that both had, and its own suits them: panes stay
+/// parallel to their wall.
+void follow_freed(const Patches& patches, const std::vector<int>& frame, const std::vector<int>& local, Model& model) {
+  constexpr double kSuits = 4.0;  // χ²: two standard errors
+  for (const auto& [a, b] : patches.neighbours) {  // a is no smaller than b; sorted, so that the largest neighbour comes first
+    const Surface& leader = model.surfaces[a];
+    Surface& other = model.surfaces[b];
+    const bool freed = leader.frame != frame[a], stayed = other.frame == frame[b];
+    if (!freed || !stayed || other.support.bowed || frame[a] != frame[b] || local[a] != local[b]) continue;
+    const Patch& patch = patches.patches[b];
+    const Vec3 n = model.normal(leader);
+    if (tilt_chi2(patch, n) < kSuits && noise_chi2(patch, n) < noise_chi2(patch, model.normal(other)) + kSuits) other.frame = leader.frame, other.local = leader.local;
+  }
+}
+
 /// Sets patches free that their frame would turn out of their own points: joined with others, they would hide it.
 void hold_patches(const Patches& patches, double tolerance, const Space& space, Model& model, std::vector<int>& frame, std::vector<int>& local) {
   for (std::size_t j = 0; j < patches.patches.size(); ++j) {
@@ -131,6 +146,7 @@ void hold_patches(const Patches& patches, double tolerance, const Space& space, 
     known.bowed = patch.bowed;
   }
   refit_held(model, tolerance, space);
+  follow_freed(patches, frame, local, model);
   for (std::size_t j = 0; j < model.surfaces.size(); ++j) frame[j] = model.surfaces[j].frame, local[j] = model.surfaces[j].local;
   model.surfaces.clear();
 }

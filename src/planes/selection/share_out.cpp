@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
+#include <numeric>
 
 #include "planes/selection/select.h"
 
@@ -53,24 +54,58 @@ void add_dominant_frame(const Patches& patches, const std::vector<Vec3>& locals,
   s.frames.push_back(frame);
 }
 
-/// Where several frames offer a patch the orientation that it has, or one from which its own does not differ, the frame that can have
-/// the most area takes it, then the one that can have most of what is left: a room keeps its floor when a table shares it, and walls
-/// stay together. Lines of a drawing have one angle, and many differ little by chance: they are given no other orientation.
-void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Space& space, Selection& s) {
-  std::vector<std::vector<Offered>> offers(s.frames.size());
+/// An orientation that a frame offers a patch.
+struct Orientation {
+  std::size_t frame;
+  int local;
+  Vec3 direction;
+};
+
+/// By patch: the orientations that suit it, which it has or from which its own does not differ. Lines of a drawing have one angle, and many differ
+/// little by chance: they are given no other orientation.
+std::vector<std::vector<Orientation>> suiting(const Patches& patches, const std::vector<Vec3>& has, const std::vector<Vec3>& locals, double patch_angle, const Space& space, const Selection& s) {
+  std::vector<std::vector<Orientation>> suits(patches.patches.size());
   for (std::size_t j = 0; j < patches.patches.size(); ++j) {
     const Patch& patch = patches.patches[j];
     if (patch.bowed) continue;
-    const Vec3 has = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
     for (std::size_t k = 0; k < s.frames.size(); ++k) {
       const Candidate c = best_candidate(patch, s.frames[k], locals, patch_angle);
       if (c.local < 0) continue;
-      const Vec3 offered = s.frames[k].direction(locals[c.local]);
-      const double chi2 = tilt_chi2(patch, offered);
-      const bool same = line_angle(offered, has) < kSameOrientation && chi2 < tilt_chi2(patch, has) + kWorse;
-      if (same || (!space.is_2d() && chi2 < kIndistinct)) offers[k].push_back({j, c.local});
+      const Vec3 direction = s.frames[k].direction(locals[c.local]);
+      const double chi2 = tilt_chi2(patch, direction);
+      const bool same = line_angle(direction, has[j]) < kSameOrientation && chi2 < tilt_chi2(patch, has[j]) + kWorse;
+      if (same || (!space.is_2d() && chi2 < kIndistinct)) suits[j].push_back({k, c.local, direction});
     }
   }
+  return suits;
+}
+
+/// Leaves a patch, of the orientations that suit it, those which suit the largest patch that it adjoins, too, if that one's own suits it: panes go with their wall.
+void follow_neighbours(const Patches& patches, const std::vector<Vec3>& has, std::vector<std::vector<Orientation>>& suits) {
+  std::vector<std::size_t> leader(patches.patches.size());
+  std::iota(leader.begin(), leader.end(), 0);
+  for (const auto& [a, b] : patches.neighbours)  // a is no smaller than b, and the smaller its index the larger it is
+    if (static_cast<std::size_t>(a) < leader[b] && !patches.patches[a].bowed && tilt_chi2(patches.patches[b], has[a]) < kIndistinct) leader[b] = a;
+  for (std::size_t j = 0; j < leader.size(); ++j) {
+    std::vector<Orientation> shared;
+    for (const Orientation& o : suits[j])
+      if (std::any_of(suits[leader[j]].begin(), suits[leader[j]].end(),
+                      [&](const Orientation& l) { return l.frame == o.frame && line_angle(l.direction, o.direction) < kSameOrientation; }))
+        shared.push_back(o);
+    if (!shared.empty()) suits[j] = std::move(shared);
+  }
+}
+
+/// Where several frames offer a patch an orientation that suits it, the frame that can have the most area takes it, then the one that can have most of
+/// what is left: a room keeps its floor when a table shares it, and walls stay together.
+void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Space& space, Selection& s) {
+  std::vector<Vec3> has;
+  for (std::size_t j = 0; j < patches.patches.size(); ++j) has.push_back(s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]));
+  std::vector<std::vector<Orientation>> suits = suiting(patches, has, locals, patch_angle, space, s);
+  if (!space.is_2d()) follow_neighbours(patches, has, suits);
+  std::vector<std::vector<Offered>> offers(s.frames.size());
+  for (std::size_t j = 0; j < suits.size(); ++j)
+    for (const Orientation& o : suits[j]) offers[o.frame].push_back({j, o.local});
   std::vector<char> given(patches.patches.size(), 0);
   for (std::size_t round = 0; round < s.frames.size(); ++round) {
     std::size_t largest = 0;
