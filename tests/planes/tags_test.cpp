@@ -162,6 +162,22 @@ std::size_t warnings_of_up(const Eigen::Matrix3d& turn) {
   return context.take_warnings().size();
 }
 
+/// The ground's outline goes around the pit, whose floor lies below nothing.
+TEST(Tags, GroundAroundAPitIsNoCeiling) {
+  Arrangement all;
+  add(all, {0, 0, -4}, Vec3(10, 0, 0), Vec3(0, 10, 0));
+  add(all, {-5, -5, 0}, Vec3(20, 0, 0), Vec3(0, 20, 0));
+  all.planes[1].polygon.push_back({{-2, -2, 0}, {12, -2, 0}, {12, 12, 0}, {-2, 12, 0}});
+  for (const double y : {0.0, 10.0}) add(all, {0, y, -4}, Vec3(10, 0, 0), Vec3(0, 0, 4));
+  const std::vector<std::string> open = tags(all);
+  EXPECT_EQ(open[0], "floor");
+  EXPECT_EQ(open[1], "horizontal");
+  all.planes[1].polygon.pop_back();  // a room below a slab
+  const std::vector<std::string> covered = tags(all);
+  EXPECT_EQ(covered[0], "floor");
+  EXPECT_EQ(covered[1], "ceiling");
+}
+
 TEST(Tags, AScanThatIsTurnedIsSaidToBe) {
   EXPECT_EQ(warnings_of_up(Mat3::Identity()), 0u);
   EXPECT_EQ(warnings_of_up(Eigen::AngleAxisd(0.5, Vec3::UnitZ()).matrix()), 0u);

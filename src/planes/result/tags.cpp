@@ -17,7 +17,8 @@ constexpr double kLevel = 1.5 * kPi / 180.0;  // floors fall a little, walls lea
 constexpr double kLarge = 0.2;    // of the largest level plane's area: less is a table, or a step
 constexpr double kAtEnd = 0.15;   // of the scene's height, from its lowest or highest point
 constexpr double kSlab = 0.25;    // of the room's height: how thick what lies between two storeys is, at most
-constexpr double kOverlap = 0.5;  // of the smaller one's extent, for one to lie above the other
+constexpr double kOverlap = 0.3;  // of the smaller one, for one to lie above the other
+constexpr int kSamples = 16;      // along each side of it
 constexpr double kWall = 0.5;     // of the room's height
 constexpr double kRoomy = 0.04;   // of the largest level plane's width: where all is lower, there is no ceiling
 constexpr double kNarrow = 0.1;   // of the room's height: what is narrower in the mean is a post, or a seam
@@ -93,9 +94,42 @@ Bounds bounds_of(const ArrangedPlane& p, const Mat3& axes) {
   return e;
 }
 
-bool lie_above_each_other(const Bounds& a, const Bounds& b) {
-  const Vec3 common = a.high.cwiseMin(b.high) - a.low.cwiseMax(b.low);
-  return common.x() > 0 && common.y() > 0 && common.x() * common.y() > kOverlap * std::min(a.area(), b.area());
+/// A level plane's outline and its holes, seen from above.
+struct Level {
+  Bounds bounds;
+  std::vector<std::vector<Vec2>> rings;
+
+  bool contains(const Vec2& p) const {
+    bool inside = false;
+    for (const std::vector<Vec2>& ring : rings)
+      for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)
+        if ((ring[i].y() > p.y()) != (ring[k].y() > p.y()) && p.x() < ring[i].x() + (ring[k].x() - ring[i].x()) * (p.y() - ring[i].y()) / (ring[k].y() - ring[i].y()))
+          inside = !inside;
+    return inside;
+  }
+};
+
+Level level_of(const ArrangedPlane& p, const Bounds& bounds, const Mat3& axes) {
+  Level level{bounds, {}};
+  for (const std::vector<Vec3>& ring : p.polygon) {
+    level.rings.emplace_back();
+    for (const Vec3& c : ring) level.rings.back().push_back((axes.transpose() * c).head<2>());
+  }
+  return level;
+}
+
+/// Whether enough of the smaller plane lies above or below the other one: ground around a pit lies beside the pit's floor.
+bool lie_above_each_other(const Level& a, const Level& b) {
+  const Level &small = a.bounds.area() < b.bounds.area() ? a : b, &large = &small == &a ? b : a;
+  int own = 0, common = 0;
+  for (int i = 0; i < kSamples * kSamples; ++i) {
+    const Vec2 share((i % kSamples + 0.5) / kSamples, (i / kSamples + 0.5) / kSamples);
+    const Vec2 at = small.bounds.low.head<2>() + share.cwiseProduct((small.bounds.high - small.bounds.low).head<2>());
+    if (!small.contains(at)) continue;
+    ++own;
+    common += large.contains(at);
+  }
+  return common > kOverlap * own;
 }
 
 /// How far it is to the next large level plane above and below; infinite without one.
@@ -103,21 +137,22 @@ struct Gaps {
   double above = kNowhere, below = kNowhere;
 };
 
-Gaps gaps_at(std::size_t level, const std::vector<std::size_t>& levels, const std::vector<Bounds>& bounds) {
+Gaps gaps_at(const Level& level, const std::vector<Level>& levels) {
   Gaps gaps;
-  for (const std::size_t other : levels) {
-    if (other == level || !lie_above_each_other(bounds[level], bounds[other])) continue;
-    const double higher = bounds[other].height() - bounds[level].height();
+  for (const Level& other : levels) {
+    if (&other == &level || !lie_above_each_other(level, other)) continue;
+    const double higher = other.bounds.height() - level.bounds.height();
     double& gap = higher > 0 ? gaps.above : gaps.below;
     gap = std::min(gap, std::abs(higher));
   }
   return gaps;
 }
 
-/// Below a floor is nothing, or the ceiling of the storey beneath; above a ceiling nothing, or the next floor.
-std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top) {
+/// Below a floor is nothing, or the ceiling of the storey beneath; above a ceiling nothing, or the next floor, and its own floor below unless none is
+/// seen at all: ground beside a pit has neither.
+std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top, bool alone) {
   const bool floor = std::isinf(gaps.below) ? from_bottom < kAtEnd : gaps.below < kSlab * gaps.above && std::isfinite(gaps.above);
-  const bool ceiling = std::isinf(gaps.above) ? from_top < kAtEnd : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
+  const bool ceiling = std::isinf(gaps.above) ? from_top < kAtEnd && (alone || std::isfinite(gaps.below)) : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
   if (floor && !(ceiling && from_top < from_bottom)) return "floor";
   return ceiling ? "ceiling" : "horizontal";
 }
@@ -142,16 +177,21 @@ void tag_planes(Arrangement& result) {
     low = std::min(low, bounds[i].low.z());
     high = std::max(high, bounds[i].high.z());
   }
-  std::vector<std::size_t> levels;
-  for (std::size_t i = 0; i < result.planes.size(); ++i)
-    if (line_angle(result.planes[i].plane.normal, up) < kLevel && result.planes[i].area > kLarge * largest) levels.push_back(i);
+  std::vector<std::size_t> large;
+  std::vector<Level> levels;
+  for (std::size_t i = 0; i < result.planes.size(); ++i) {
+    if (line_angle(result.planes[i].plane.normal, up) >= kLevel || result.planes[i].area <= kLarge * largest) continue;
+    large.push_back(i);
+    levels.push_back(level_of(result.planes[i], bounds[i], axes));
+  }
 
   std::vector<double> rooms;  // heights
-  for (const std::size_t i : levels) {
-    const Gaps gaps = gaps_at(i, levels, bounds);
+  for (std::size_t k = 0; k < large.size(); ++k) {
+    const std::size_t i = large[k];
+    const Gaps gaps = gaps_at(levels[k], levels);
     const double span = std::max(high - low, 1e-300);
     const bool roomy = span > kRoomy * std::sqrt(largest);
-    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere);
+    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere, levels.size() == 1);
     if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
   }
   const double room = rooms.empty() ? high - low : median(std::move(rooms));
