@@ -125,5 +125,18 @@ TEST(Bowed, PipesHaveNoRelationsAndTheRoomAboutThemKeepsItsOwn) {
   EXPECT_GT(static_cast<double>(right), 0.98 * static_cast<double>(cloud.size() - of_pipes));
 }
 
+/// Strips only, and so no frame at all.
+TEST(Bowed, AConeAloneHasNoRelations) {
+  Random random(4);
+  PointCloud cone;
+  for (int i = 0; i < 60'000; ++i) {
+    const double height = 3.0 * std::sqrt(random.uniform()), angle = random.uniform(0, 2 * kPi), radius = 0.5 * height + 0.003 * random.normal();
+    cone.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), -height);
+  }
+  const Arrangement result = test::run(cone, Options()).result;
+  EXPECT_GT(result.planes.size(), 5u);
+  EXPECT_EQ(result.plane_relations, 0u);
+}
+
 }  // namespace
 }  // namespace unseen::planes

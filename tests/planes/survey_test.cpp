@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "planes/scan/scale.h"
 #include "planes/scenes.h"
 #include "unseen/core/error.h"
@@ -136,6 +138,34 @@ TEST(SpaceOf, AFilledAreaIsNoDrawing) {
     EXPECT_FALSE(space_of(look_at(area), false).is_2d()) << count;
     EXPECT_TRUE(space_of(look_at(lines), false).is_2d()) << count;
   }
+}
+
+/// Walls between two cuts are a drawing; what a scanner's rings leave of level or falling ground is a surface, and a rail no slice.
+TEST(SpaceOf, ASliceThroughWallsIsADrawing) {
+  Random random(11);
+  const auto cloud_of = [](const std::function<Vec3()>& point) {
+    PointCloud cloud;
+    for (int i = 0; i < 20'000; ++i) cloud.positions.push_back(point());
+    return cloud;
+  };
+  const auto on_walls = [&](double thick) -> Vec3 {
+    const double t = random.uniform(0, 8), noise = 0.003 * random.normal();
+    return Vec3(random.uniform() < 0.5 ? Vec3(t, random.uniform() < 0.5 ? noise : 6 + noise, 0) : Vec3(random.uniform() < 0.5 ? noise : 8 + noise, 0.75 * t, 0)) +
+           Vec3(0, 0, random.uniform(0, thick));
+  };
+  const auto on_rings = [&] {
+    const double angle = random.uniform(0, 2 * kPi), radius = 4.0 * (1 + static_cast<double>(random.index(4)));
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0);
+  };
+  const auto is_2d = [&](const PointCloud& cloud) { return space_of(look_at(cloud), false).is_2d(); };
+  EXPECT_TRUE(is_2d(cloud_of([&] { return on_walls(0.02); })));
+  EXPECT_FALSE(is_2d(cloud_of([&] { return on_walls(0.3); })));
+  EXPECT_FALSE(is_2d(cloud_of([&] { return Vec3(on_rings() + Vec3(0, 0, 0.01 * random.normal())); })));
+  EXPECT_FALSE(is_2d(cloud_of([&] {
+    const Vec3 p = on_rings();
+    return Vec3(p.x(), p.y(), 0.003 * p.x() + 0.004 * random.uniform());
+  })));
+  EXPECT_FALSE(is_2d(cloud_of([&] { return Vec3(random.uniform(0, 100), 0.3 * random.uniform(), 0.3 * static_cast<double>(random.index(2))); })));
 }
 
 /// A line along an axis is flat in two coordinates; it is no drawing.

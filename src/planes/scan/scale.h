@@ -31,7 +31,7 @@ Survey survey(PointSource& source, Context& context);
 /// of a 100 000th of the extent or more.
 double rounding_of(const Survey& survey);
 
-/// The space of a survey: 2D if all points share a coordinate and lie on lines.
+/// The space of a survey: 2D if all points share a coordinate, or lie in a slice between two such planes, and on lines.
 Space space_of(const Survey& survey, bool declared_2d);
 
 /// ρ, and how far points may lie from their plane: ρ as well, unless it was estimated from points that are sparse but precise.

@@ -99,8 +99,9 @@ void follow_neighbours(const Patches& patches, const std::vector<Vec3>& has, std
 /// Where several frames offer a patch an orientation that suits it, the frame that can have the most area takes it, then the one that can have most of
 /// what is left: a room keeps its floor when a table shares it, and walls stay together.
 void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Space& space, Selection& s) {
-  std::vector<Vec3> has;
-  for (std::size_t j = 0; j < patches.patches.size(); ++j) has.push_back(s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]));
+  std::vector<Vec3> has(patches.patches.size(), Vec3::Zero());  // none of bowed patches
+  for (std::size_t j = 0; j < has.size(); ++j)
+    if (!patches.patches[j].bowed) has[j] = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
   std::vector<std::vector<Orientation>> suits = suiting(patches, has, locals, patch_angle, space, s);
   if (!space.is_2d()) follow_neighbours(patches, has, suits);
   std::vector<std::vector<Offered>> offers(s.frames.size());
