@@ -8,6 +8,7 @@
 #include "collision/tracks/chain.h"
 #include "collision/tracks/tracks.h"
 #include "collision/video/regions.h"
+#include "collision/video/worst_channel.h"
 #include "little_videos.h"
 
 namespace unseen::collision::test {
@@ -174,6 +175,33 @@ TEST(Shadow, ABallKeepsItsShadedSideOfTheFloorsColor) {
     return frame;
   });
   EXPECT_GE(whole_balls(footage), 27);
+}
+
+/// A part with a rim of the floor around it: what is left without the shadow reaches around that, as a body does around its shaded side; the
+/// floor's texture in it tells. Where it is not `textured`, the dark place is a patch on the body.
+Shade shade_within_a_rim(const cv::Mat& floor, bool textured, cv::Mat& dark) {
+  cv::Mat ball = cv::Mat::zeros(floor.size(), CV_8U), part, frame = floor.clone(), shaded;
+  const Vec2 center(150.0, 100.0);
+  dark = ball.clone();
+  draw_disc(ball, center, 24.0, cv::Scalar::all(255));
+  draw_disc(dark, center + Vec2(18.0, 20.0), 18.0, cv::Scalar::all(255));
+  dark &= ~ball;
+  if (textured) floor.convertTo(shaded, CV_8UC3, 0.65);
+  else shaded = cv::Mat(floor.size(), CV_8UC3, cv::mean(floor) * 0.65);
+  shaded.copyTo(frame, dark);
+  frame.setTo(cv::Scalar(220, 90, 60), ball);
+  Random random(4);
+  add_noise(frame, 2.0, random);
+  cv::dilate(ball | dark, part, cv::getStructuringElement(cv::MORPH_ELLIPSE, {9, 9}));
+  return find_shade(frame, {floor, cv::Mat(floor.size(), CV_32F, cv::Scalar(2.0))}, worst_difference(frame, floor), part);
+}
+
+TEST(Shadow, TheFloorsTextureTellsAShadowThatLiesWithinTheRestOfAPart) {
+  cv::Mat dark;
+  const Shade shade = shade_within_a_rim(wall(), true, dark);
+  EXPECT_GT(cv::countNonZero(shade.mask & dark), 0.8 * cv::countNonZero(dark));
+  const Shade none = shade_within_a_rim(wall(), false, dark);
+  EXPECT_LT(cv::countNonZero(none.mask & dark), 0.2 * cv::countNonZero(dark));
 }
 
 /// Two sides of a box that tumbles: one red, one of the wall's colour in less light; and the shadow that it casts on a wall close behind.

@@ -20,6 +20,10 @@ constexpr double kSmallestRegion = 20.0;             // px
 constexpr double kSmallestShare = 1e-5;        // of the picture
 constexpr double kLargestShare = 0.3;           // of the picture that a part's box may fill to be looked at more closely
 constexpr double kCore = 0.15;                 // share of a part that must be left when its shadow is cut off
+constexpr double kTail = 0.3;                  // of the radius of the largest disc in a body: what is thinner hangs on it
+constexpr double kCorner = 1.5;                // of that, how far corners reach beyond it
+constexpr double kLeastTail = 5.0;             // px, radius of a body at least
+constexpr double kFaint = 0.35;                // of the body's contrast
 constexpr double kHalf = 0.45;                 // of the local contrast
 constexpr int kContrastReach = 9;              // px, window of the local contrast
 
@@ -61,6 +65,22 @@ void sharpen_outline(cv::Mat& mask, const cv::Mat& difference) {
   mask.setTo(0, weak);
 }
 
+/// Cuts off what hangs on the body, thinner than it by far, and hardly differs from the background: the rim of a soft shadow, what compression leaves.
+void cut_faint_tails(cv::Mat& mask, const cv::Mat& difference) {
+  cv::Mat inside, from_core, labels, framed;
+  cv::copyMakeBorder(mask, framed, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::distanceTransform(framed, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  double radius = 0.0;
+  cv::minMaxLoc(inside, nullptr, &radius);
+  if (radius < kLeastTail) return;
+  cv::distanceTransform(inside <= kTail * radius, from_core, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  const cv::Mat body = mask & (from_core(cv::Rect({1, 1}, mask.size())) <= kCorner * kTail * radius + 1.0), tails = mask & ~body;
+  const double faint = kFaint * cv::mean(difference, body)[0];
+  const int count = cv::connectedComponents(tails, labels, 8);
+  for (int i = 1; i < count; ++i)
+    if (const cv::Mat tail = labels == i; cv::mean(difference, tail)[0] < faint) mask.setTo(0, tail);
+}
+
 /// Fills holes and drops everything but the largest piece.
 bool largest_piece(cv::Mat& mask) {
   std::vector<std::vector<cv::Point>> outlines;
@@ -96,6 +116,7 @@ bool refine(const cv::Mat& frame, const Background& background, const cv::Mat& d
     }
   }
   sharpen_outline(part.mask, contrast);
+  cut_faint_tails(part.mask, contrast);
   return largest_piece(part.mask);
 }
 

@@ -19,7 +19,9 @@ constexpr double kSettled = 0.75;    // share of the frames that agree with the 
 constexpr double kSpread = 0.1;      // of the clip, added to the spread in time of the frames that agree
 constexpr int kThick = 5;            // px: less is no body
 constexpr double kPlainer = 0.82;    // of the median's total variation
+constexpr double kMoreAlike = 0.5;   // of how far the median is off what is around
 constexpr int kOff = 6;              // grey levels: less is no ghost
+constexpr double kFarOff = 12.0;      // the same, where a floor or its edges may drift
 constexpr int kUnsteady = 6;         // grey levels of the deviation: less does not matter
 constexpr int kPasses = 3;           // that something passes, at most: what flickers or sways departs more often
 constexpr int kAround = 15;          // px, about a ghost, where bodies linger too
@@ -125,8 +127,14 @@ double total_variation(const cv::Mat& noisy, const cv::Mat& mask) {
   return sum;
 }
 
-/// Where the median differs from the lasting colours, in patches that these make plainer: a ghost goes. Edges of the background that
-/// shake or drift are unsettled too, and get rougher.
+/// How far the mean colour of a patch is off that of what is around it, grey levels.
+double off_around(const cv::Mat& picture, const cv::Mat& patch, const cv::Mat& around) {
+  const cv::Scalar own = cv::mean(picture, patch), other = cv::mean(picture, around);
+  return std::max({std::abs(own[0] - other[0]), std::abs(own[1] - other[1]), std::abs(own[2] - other[2])});
+}
+
+/// Where the median differs from the lasting colours, in patches that these make plainer, or, where there is texture, more like what is
+/// around them: a ghost goes. Edges of the background that shake or drift are unsettled too, and get rougher.
 cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
   const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kThick, kThick});
   cv::Mat labels, stats, centers, ghost = worst_difference(lasting, median) > kOff;
@@ -136,13 +144,18 @@ cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
   lasting.copyTo(mended, ghost);
   const int count = cv::connectedComponentsWithStats(ghost, labels, stats, centers, 8);
   for (int i = 1; i < count; ++i) {
-    cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT) - kThick, stats.at<int>(i, cv::CC_STAT_TOP) - kThick,
-                 stats.at<int>(i, cv::CC_STAT_WIDTH) + 2 * kThick, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2 * kThick);
+    cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT) - kAround, stats.at<int>(i, cv::CC_STAT_TOP) - kAround,
+                 stats.at<int>(i, cv::CC_STAT_WIDTH) + 2 * kAround, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2 * kAround);
     box &= cv::Rect({0, 0}, median.size());
     const cv::Mat patch = labels(box) == i;
-    cv::Mat around;
-    cv::dilate(patch, around, element);
-    if (total_variation(mended(box), around) > kPlainer * total_variation(median(box), around)) ghost(box).setTo(0, patch);
+    cv::Mat with_rim, around;
+    cv::dilate(patch, with_rim, element);
+    cv::dilate(patch, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kAround + 1, 2 * kAround + 1}));
+    around &= ~with_rim;
+    const bool plainer = total_variation(mended(box), with_rim) <= kPlainer * total_variation(median(box), with_rim);
+    const double off = off_around(median(box), patch, around);
+    const bool more_alike = cv::countNonZero(around) > 0 && off > kFarOff && off_around(mended(box), patch, around) < kMoreAlike * off;
+    if (!plainer && !more_alike) ghost(box).setTo(0, patch);
   }
   return ghost;
 }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "collision/video/mask_shape.h"
 #include "collision/video/worst_channel.h"
 #include "unseen/core/quantile.h"
 
@@ -25,15 +26,15 @@ constexpr double kWithin = 0.5;                // share of a shadow inside the h
 constexpr double kConvex = 0.955, kConvexPiece = 0.88;  // of the hull: body with a flat side in its shade; the side, which is
 constexpr double kLeastSide = 0.2;             // of the rest, at least: less is a shadow along a side;
 constexpr double kMostSide = 1.5;              // and at most
-constexpr double kWhole = 0.85;                 // share of a part that makes it a shadow
+constexpr double kWhole = 0.85;                // share of a part that makes it a shadow
 constexpr double kRound = 0.88;                // share of its bounding circle: a part like that is a ball with its shaded side, if
 constexpr double kLitSide = 0.35;              // of it is no shadow
 constexpr double kColored = 4.0;               // grey levels off a neutral tone: less is no colour to go by
 constexpr int kWindow = 9;                     // px, of the light that texture is seen against
-constexpr int kFewestPixels = 60;                    // px that tell of texture
+constexpr int kFewestPixels = 60;              // px that tell of texture
 constexpr double kTextured = 1.0;              // grey levels: weaker texture tells nothing
 constexpr double kSeen = 0.5;                  // of the texture: shadow or body
-constexpr double kUnseen = 0.3;                // of the texture, at most, on a body
+constexpr double kUnseen = 0.15;               // of the texture, at most, on a body
 constexpr double kJump = 0.5;                  // of a body's range of light, between its sides: more is an edge
 
 /// 255 where a pixel could be the background with less light: the same colour, darker. Where the difference from the background is
@@ -86,8 +87,6 @@ std::optional<ShadowSign> sign_of(const cv::Mat& frame, const cv::Mat& backgroun
   return has_its_color(frame, background, piece) ? ShadowSign::color : ShadowSign::light;
 }
 
-cv::Mat disc(int size) { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {size, size}); }
-
 /// Whether the light of `lit` goes over into that of `piece`, as it does on a round body, and does not end at an edge.
 bool goes_over(const cv::Mat& frame, const cv::Mat& lit, const cv::Mat& piece) {
   cv::Mat near_lit, near_piece;
@@ -121,34 +120,6 @@ std::vector<Piece> pieces_of(const cv::Mat& frame, const cv::Mat& background, cv
   return pieces;
 }
 
-/// The convex hull of a mask that is not empty.
-cv::Mat hull_of(const cv::Mat& mask) {
-  std::vector<cv::Point> points, corners;
-  cv::findNonZero(mask, points);
-  cv::convexHull(points, corners);
-  cv::Mat hull = cv::Mat::zeros(mask.size(), CV_8U);
-  cv::fillConvexPoly(hull, corners, cv::Scalar(255));
-  return hull;
-}
-
-/// Share of its convex hull that a mask fills; 0 if it is empty.
-double solidity(const cv::Mat& mask) {
-  const int area = cv::countNonZero(mask);
-  return area == 0 ? 0.0 : static_cast<double>(area) / cv::countNonZero(hull_of(mask));
-}
-
-/// Share of its bounding circle that a mask fills; 0 if it is empty.
-double roundness(const cv::Mat& mask) {
-  std::vector<cv::Point> points, hull;
-  cv::Point2f center;
-  float radius = 0.0F;
-  cv::findNonZero(mask, points);
-  if (points.empty()) return 0.0;
-  cv::convexHull(points, hull);  // minEnclosingCircle takes minutes of all points of a large part
-  cv::minEnclosingCircle(hull, center, radius);
-  return static_cast<double>(points.size()) / (kPi * (radius + 0.5) * (radius + 0.5));
-}
-
 /// Whether a piece is convex and completes the rest to a convex whole, as a flat side of a box does. A shadow close to its body lies around it;
 /// what is beside a whole ball, or larger than the rest, is no side.
 bool completes(const cv::Mat& lit, const cv::Mat& piece) {
@@ -160,17 +131,17 @@ bool completes(const cv::Mat& lit, const cv::Mat& piece) {
 }
 
 /// Takes out of `shadow` the shaded sides of the rest of `mask`: pieces that lie within its convex hull, since a shadow falls beside its
-/// body, flat sides, and, where colour does not tell, pieces that its light goes over into.
+/// body, and flat sides, if the background's texture is not seen in them; and, where colour does not tell, pieces that its light goes over into.
 void keep_shaded_sides(const cv::Mat& frame, const cv::Mat& mask, const std::vector<Piece>& pieces, cv::Mat& shadow) {
   cv::Mat lit = mask & ~shadow;
   cv::morphologyEx(lit, lit, cv::MORPH_OPEN, disc(3));
   const int area = cv::countNonZero(lit);
   if (area < 3) return;
-  const cv::Mat hull = hull_of(lit);
+  const cv::Mat hull = hull_of(without_crumbs(lit));
   for (const Piece& piece : pieces) {
-    const bool within = piece.area < kSide * area && cv::countNonZero(piece.mask & hull) >= kWithin * piece.area;
-    const bool flat_side = piece.sign != ShadowSign::texture && completes(lit, piece.mask);
-    if (within || flat_side || (piece.sign == ShadowSign::light && goes_over(frame, lit, piece.mask))) shadow.setTo(0, piece.mask);
+    const auto within = [&] { return piece.area < kSide * area && cv::countNonZero(piece.mask & hull) >= kWithin * piece.area; };
+    const bool side = piece.sign != ShadowSign::texture && (within() || completes(lit, piece.mask));
+    if (side || (piece.sign == ShadowSign::light && goes_over(frame, lit, piece.mask))) shadow.setTo(0, piece.mask);
   }
 }
 
