@@ -92,6 +92,31 @@ TEST(Cuts, PanelsOnARoofAreIslands) {
   }
 }
 
+TEST(Cuts, TwoSidesThatLieAboveEachOtherAreParted) {
+  Random random(3);  // where more than a few points lie higher, anywhere
+  const VoxelGrid grid = strip([&](double, double) { return random.uniform() < 0.3 ? 0.15 : 0.0; }, 0.01);
+  const CellSets pieces = test::pieces_of(grid);
+  ASSERT_EQ(pieces.size(), 2u);
+  EXPECT_NEAR(std::abs(sum_of(grid, pieces[0]).mean.z() - sum_of(grid, pieces[1]).mean.z()), 0.15, 0.01);
+}
+
+/// Seen from both sides, with a few points on its end: two planes, though no line parts their voxels and either explains the other's points.
+TEST(Cuts, ThinWallsHaveTwoSides) {
+  for (const double thick : {0.06, 0.075, 0.1}) {
+    PointCloud cloud;
+    Random random(7);
+    const Vec3 along(std::cos(0.3), std::sin(0.3), 0), across(-std::sin(0.3), std::cos(0.3), 0), up(0, 0, 2.6);
+    for (const double side : {0.0, thick}) test::add_rectangle(cloud, side * across, 4 * along, up, 0.05, 0.004, random);
+    test::add_rectangle(cloud, 4 * along, thick * across, up, 0.03, 0.004, random);
+    test::add_rectangle(cloud, Vec3(-4, -4, 0), Vec3(10, 0, 0), Vec3(0, 10, 0), 0.06, 0.004, random);
+    std::vector<double> sides;
+    for (const ArrangedPlane& p : test::run(cloud, test::with_scale(0.11)).result.planes)
+      if (line_angle(p.plane.normal, across) < radians(1) && p.points > 1'000) sides.push_back(p.plane.normal.dot(across) * p.plane.offset);
+    ASSERT_EQ(sides.size(), 2u) << thick;
+    EXPECT_NEAR(std::abs(sides[0] - sides[1]), thick, 0.004);
+  }
+}
+
 TEST(Cuts, WhatIsRoughHasNoIslands) {
   EXPECT_TRUE(test::pieces_of(strip([](double, double) { return 0.0; }, 0.08)).empty());
   EXPECT_TRUE(test::pieces_of(strip([](double x, double y) { return on_panel(x, y) ? 0.06 : 0.0; }, 0.03)).empty()) << "two standard deviations";

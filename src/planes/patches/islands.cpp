@@ -14,6 +14,8 @@ constexpr double kApart = 6.0;           // times the noise: how far levels are 
 constexpr double kOfTolerance = 0.25;    // and of the tolerance,
 constexpr double kSteps = 3.0;           // and of the steps of rounded coordinates: a slant is no staircase
 constexpr double kLeft = 0.4;            // of the squared error: two levels leave less
+constexpr double kTwoSides = 0.15;       // of it: what leaves less is the two sides of a thin wall, wherever they lie, if
+constexpr double kSide = 0.15;           // of the points are on either
 constexpr std::size_t kFewestCells = 36; // of a level, and of an island: three scales each way
 constexpr double kTogether = 0.5;        // of the voxels around those of an island, with these: on its level
 constexpr int kBeside = 2;               // voxels: around
@@ -151,7 +153,8 @@ Islands islands_in(const VoxelGrid& grid, const std::vector<int>& region, const 
   if (std::min(levels.cells[0], levels.cells[1]) < kFewestCells || left > kLeft * error || levels.apart() < std::max(least, kApart * levels.fit.rms)) return {};
   const std::array<VoxelSet, 2> sets = {set_of(grid, region, levels, 0), set_of(grid, region, levels, 1)};
   const char smaller = levels.cells[1] < levels.cells[0];
-  if (!lie_together(grid, region, levels, smaller, sets[smaller], sets[!smaller])) return {};
+  const bool two_sides = left < kTwoSides * error && std::min(levels.sum[0].count, levels.sum[1].count) > kSide * whole.count;
+  if (!two_sides && !lie_together(grid, region, levels, smaller, sets[smaller], sets[!smaller])) return {};
   Islands islands{pieces_of(grid, region, sets[0]), left};
   CellSets upper = pieces_of(grid, region, sets[1]);
   if (islands.pieces.empty() || upper.empty()) return {};
