@@ -63,7 +63,7 @@ void print_summary(const planes::Arrangement& a, const PlanesArguments& args, bo
       finite == 0 ? 0.0 : 100.0 * static_cast<double>(assigned) / static_cast<double>(finite);
   const std::string left_out = finite == points ? "" : fmt::format(" ({} are no numbers)", points - finite);
   if (a.two_dimensional && !drawing_expected)
-    fmt::print("all points share one coordinate: taken as a drawing\n");
+    fmt::print("all points share one coordinate, or lie in a thin slice: taken as a drawing\n");
   fmt::print("{}{}, {} of them on a {} ({:.1f} %)\n", plural(points, "point"), left_out, assigned, thing, share);
   fmt::print("{} in {}, {}\n", plural(a.planes.size(), thing), plural(a.frames.size(), "orientation frame"),
              plural(a.directions.size(), "direction"));

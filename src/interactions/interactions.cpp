@@ -51,6 +51,14 @@ std::size_t frames_of(const Take& take) {
   return frames.size();
 }
 
+/// Why no motion was found for a person who was detected.
+std::string why_unread(const Take& take, int person, const Story& story) {
+  const bool seen = std::any_of(story.sights.begin(), story.sights.end(), [](const Sight& s) { return 2 * (s.confidence >= kSeen).count() > kJoints; });
+  if (!seen) return fmt::format("person {}: too few joints have a confidence of {} or more for any motion", person, kSeen);
+  const bool given = take.up || take.camera_height;
+  return fmt::format("person {}: no motion of the database fits what is seen{}", person, given ? "; \"up\" and \"camera_height\" may be wrong: up points away from the floor, heights are in metres" : "");
+}
+
 void solve(const std::vector<Take>& takes, const Database& database, const Options& options, Reconstruction& r, Context& context) {
   const Take take = merge_takes(takes);
   if (take.camera_assumed)
@@ -68,8 +76,7 @@ void solve(const std::vector<Take>& takes, const Database& database, const Optio
     const Stage stage(context, r.summary, "match");
     for (int person = 0; person < take.people; ++person) {
       stories.push_back(read_story(sights_of(take, person, view), person, database, view, take.fps, options, context));
-      if (!stories.back().sights.empty() && stories.back().readings.empty())
-        context.warn(fmt::format("person {}: too few joints have a confidence of {} or more for any motion", person, kSeen));
+      if (!stories.back().sights.empty() && stories.back().readings.empty()) context.warn(why_unread(take, person, stories.back()));
       context.progress((person + 1.0) / take.people);
     }
   }

@@ -95,7 +95,8 @@ Look look_at(PointSource& source, const Options& options, Context& context, Arra
   if (info.has_normals && !look.use_normals) context.warn("input normals are not usable; they are estimated instead");
   if (look.space.is_2d() && !info.two_dimensional) {
     const double thick = look.space.flat_axis->dot(look.survey.high - look.survey.low);
-    context.message(thick > 0.0 ? fmt::format("a slice {:.3g} m thick: taken as a drawing", thick) : "all points share one coordinate: taken as a drawing");
+    if (thick > 0.0) context.warn(fmt::format("the points are a slice, {:.3g} m thick: taken as a drawing", thick));
+    else context.message("all points share one coordinate: taken as a drawing");
   }
   if (estimated)
     context.message(fmt::format("scale {:.4g}{unit}, {}; points may lie {:.4g}{unit} from their plane", result.scale, look.scale.step > 0.0 ? "as the steps of the depth ask for" : "estimated from spacing and noise",

@@ -48,7 +48,7 @@ PictureSize picture_size(const GivenCamera& given, const JointFile* joints, std:
   if (joints && joints->width > 0 && joints->height > 0) return {joints->width, joints->height};
   PictureSize size = kUsualPicture;
   if (c.fx > 0.0 && c.cx > 1.0 && c.cy > 1.0) {
-    size = {static_cast<int>(std::lround(2 * c.cx)), static_cast<int>(std::lround(2 * c.cy))};
+    size = {2 * static_cast<int>(std::lround(c.cx)), 2 * static_cast<int>(std::lround(c.cy))};  // even; centres are given as half of it or half a pixel less
   } else if (joints) {
     size = guess_size(joints->detections);
   }

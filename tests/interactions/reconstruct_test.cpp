@@ -303,6 +303,21 @@ TEST(Reconstruct, SaysThatACameraIsAssumed) {
   EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("field of view") != std::string::npos; }));
 }
 
+TEST(Reconstruct, SaysWhyNoMotionIsFound) {
+  Take turned = generated(6001, 5).take, faint = turned;
+  turned.up = Vec3::UnitY();  // down, in the camera's axes
+  turned.camera_height = 100.0;
+  for (Detection& d : turned.detections) d.local.reset();
+  for (Detection& d : faint.detections) d.confidence.setConstant(0.1);
+  const auto says = [](const Take& take, const std::string& why) {
+    const std::vector<std::string> warnings = run({take}).summary.warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) { return w.find(why) != std::string::npos; });
+  };
+  EXPECT_TRUE(says(turned, "may be wrong: up points away from the floor"));
+  EXPECT_FALSE(says(turned, "too few joints"));
+  EXPECT_TRUE(says(faint, "too few joints"));
+}
+
 TEST(Reconstruct, RefusesTakesWithoutDetectionsAndOtherCameras) {
   SynthTake synth = simulate(test::synth_options(6001, 5));
   Take empty = synth.take, other = synth.take;

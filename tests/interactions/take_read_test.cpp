@@ -242,6 +242,10 @@ TEST(TakeRead, ACameraThatIsNotThereIsAssumed) {
   EXPECT_TRUE(sized.camera_assumed);
   EXPECT_EQ(sized.camera.width, 1920);
   EXPECT_NEAR(2 * std::atan2(960.0, sized.camera.fx), kPi / 3, 1e-12);
+  for (const double half : {0.0, 0.5}) {  // both usual ways to say where the middle is
+    json["camera"] = {{"fx", 1600}, {"fy", 1600}, {"cx", 960 - half}, {"cy", 540 - half}};
+    EXPECT_TRUE(remarked(read_take(folder.write("take.json", json)), "1920 x 1080 is assumed")) << half;
+  }
 }
 
 TEST(TakeRead, JointsOutsideThePictureAreRemarkedOn) {

@@ -165,6 +165,15 @@ TEST(SpaceOf, ASliceThroughWallsIsADrawing) {
     const Vec3 p = on_rings();
     return Vec3(p.x(), p.y(), 0.003 * p.x() + 0.004 * random.uniform());
   })));
+  EXPECT_FALSE(is_2d(cloud_of([&] {  // a dish
+    const Vec3 p = on_rings();
+    return Vec3(p.x(), p.y(), 0.12 * p.head<2>().squaredNorm() / 256 + 0.005 * random.normal());
+  })));
+  EXPECT_FALSE(is_2d(cloud_of([&] {  // a road and pavements
+    const Vec3 p = on_rings();
+    return Vec3(p.x(), p.y(), (std::abs(p.x()) > 5 ? 0.1 : 0.0) + 0.003 * random.normal());
+  })));
+  EXPECT_FALSE(is_2d(cloud_of([&] { return Vec3(on_rings() + Vec3(0, 0, 0.01 * static_cast<double>(random.index(3)))); })));  // in centimetres
   EXPECT_FALSE(is_2d(cloud_of([&] { return Vec3(random.uniform(0, 100), 0.3 * random.uniform(), 0.3 * static_cast<double>(random.index(2))); })));
 }
 

@@ -178,6 +178,16 @@ TEST(Tags, GroundAroundAPitIsNoCeiling) {
   EXPECT_EQ(covered[1], "ceiling");
 }
 
+/// A ceiling in two bays, whose floor was cut off.
+TEST(Tags, CeilingsNeedNoFloor) {
+  Arrangement all;
+  for (const double x : {0.0, 5.0}) add(all, {x, 0, 2.7}, Vec3(4, 0, 0), Vec3(0, 6, 0));
+  for (const double y : {0.0, 6.0}) add(all, {0, y, 0.5}, Vec3(9, 0, 0), Vec3(0, 0, 2.2));
+  const std::vector<std::string> found = tags(all);
+  EXPECT_EQ(found[0], "ceiling");
+  EXPECT_EQ(found[1], "ceiling");
+}
+
 TEST(Tags, AScanThatIsTurnedIsSaidToBe) {
   EXPECT_EQ(warnings_of_up(Mat3::Identity()), 0u);
   EXPECT_EQ(warnings_of_up(Eigen::AngleAxisd(0.5, Vec3::UnitZ()).matrix()), 0u);

@@ -77,8 +77,16 @@ void cut_faint_tails(cv::Mat& mask, const cv::Mat& difference) {
   const cv::Mat body = mask & (from_core(cv::Rect({1, 1}, mask.size())) <= kCorner * kTail * radius + 1.0), tails = mask & ~body;
   const double faint = kFaint * cv::mean(difference, body)[0];
   const int count = cv::connectedComponents(tails, labels, 8);
-  for (int i = 1; i < count; ++i)
-    if (const cv::Mat tail = labels == i; cv::mean(difference, tail)[0] < faint) mask.setTo(0, tail);
+  std::vector<double> excess(static_cast<std::size_t>(count), 0.0);  // of a tail's contrast over what is faint, summed
+  const auto for_tails = [&](const auto& visit) {
+    for (int y = 0; y < mask.rows; ++y)
+      for (int x = 0; x < mask.cols; ++x)
+        if (const int tail = labels.at<int>(y, x); tail > 0) visit(excess[static_cast<std::size_t>(tail)], y, x);
+  };
+  for_tails([&](double& sum, int y, int x) { sum += difference.at<unsigned char>(y, x) - faint; });
+  for_tails([&](double& sum, int y, int x) {
+    if (sum < 0.0) mask.at<unsigned char>(y, x) = 0;
+  });
 }
 
 /// Fills holes and drops everything but the largest piece.

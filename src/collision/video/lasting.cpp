@@ -18,7 +18,7 @@ constexpr double kReach = 4.0;       // times the picture's typical noise: as fa
 constexpr double kSettled = 0.75;    // share of the frames that agree with the median: the background beyond doubt
 constexpr double kSpread = 0.1;      // of the clip, added to the spread in time of the frames that agree
 constexpr int kThick = 5;            // px: less is no body
-constexpr double kPlainer = 0.82;    // of the median's total variation
+constexpr double kPlainer = 0.82, kRougher = 1.1;  // of the median's total variation
 constexpr double kMoreAlike = 0.5;   // of how far the median is off what is around
 constexpr int kOff = 6;              // grey levels: less is no ghost
 constexpr double kFarOff = 12.0;      // the same, where a floor or its edges may drift
@@ -133,8 +133,8 @@ double off_around(const cv::Mat& picture, const cv::Mat& patch, const cv::Mat& a
   return std::max({std::abs(own[0] - other[0]), std::abs(own[1] - other[1]), std::abs(own[2] - other[2])});
 }
 
-/// Where the median differs from the lasting colours, in patches that these make plainer, or, where there is texture, more like what is
-/// around them: a ghost goes. Edges of the background that shake or drift are unsettled too, and get rougher.
+/// Where the median differs from the lasting colours, in patches that these make plainer, or, hardly rougher, clearly more like what is
+/// around them, as where there is texture: a ghost goes. Edges of the background that shake or drift are unsettled too, and get rougher.
 cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
   const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kThick, kThick});
   cv::Mat labels, stats, centers, ghost = worst_difference(lasting, median) > kOff;
@@ -142,6 +142,7 @@ cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
   cv::morphologyEx(ghost, ghost, cv::MORPH_OPEN, element);
   cv::Mat mended = median.clone();
   lasting.copyTo(mended, ghost);
+  const cv::Mat settled = ~ghost;
   const int count = cv::connectedComponentsWithStats(ghost, labels, stats, centers, 8);
   for (int i = 1; i < count; ++i) {
     cv::Rect box(stats.at<int>(i, cv::CC_STAT_LEFT) - kAround, stats.at<int>(i, cv::CC_STAT_TOP) - kAround,
@@ -151,10 +152,11 @@ cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
     cv::Mat with_rim, around;
     cv::dilate(patch, with_rim, element);
     cv::dilate(patch, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kAround + 1, 2 * kAround + 1}));
-    around &= ~with_rim;
-    const bool plainer = total_variation(mended(box), with_rim) <= kPlainer * total_variation(median(box), with_rim);
+    around &= ~with_rim & settled(box);
+    const double rough = total_variation(mended(box), with_rim) / std::max(1.0, total_variation(median(box), with_rim));
+    const bool plainer = rough <= kPlainer;
     const double off = off_around(median(box), patch, around);
-    const bool more_alike = cv::countNonZero(around) > 0 && off > kFarOff && off_around(mended(box), patch, around) < kMoreAlike * off;
+    const bool more_alike = rough < kRougher && cv::countNonZero(around) > 0 && off > kFarOff && off_around(mended(box), patch, around) < kMoreAlike * off;
     if (!plainer && !more_alike) ghost(box).setTo(0, patch);
   }
   return ghost;

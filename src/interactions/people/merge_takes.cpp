@@ -40,7 +40,7 @@ void add_pose(const Take& take, Take& all) {
 void remark_on_people(const Take& take, const std::vector<int>& persons, std::vector<std::string>& remarks) {
   const auto nobody = static_cast<std::size_t>(std::count(persons.begin(), persons.end(), -1));
   if (10 * nobody > persons.size())
-    remarks.push_back(fmt::format("{} of {} detections are taken for nobody: \"people\" is {}", nobody, persons.size(), take.people));
+    remarks.push_back(fmt::format("{} of {} detections are taken for nobody: \"people\" is {}; set it to how many there are, or \"labels\" to whom to follow", nobody, persons.size(), take.people));
   int never = 0;
   for (int p = 0; p < take.people; ++p) never += std::find(persons.begin(), persons.end(), p) == persons.end();
   if (never > 0) remarks.push_back(fmt::format("{} of {} people are never seen", never, take.people));

@@ -30,7 +30,7 @@ struct Patches {
   std::vector<Patch> patches;                  ///< by falling area
   double least_noise = 0;                      ///< m, half the typical noise, or what rounding leaves: for make_patch
   std::vector<int> patch_of_cell;              ///< −1 = none
-  std::vector<std::pair<int, int>> adjoining;   ///< closest points nearer than 2ρ, in drawings 3ρ; a < b
+  std::vector<std::pair<int, int>> adjoining;   ///< closest points nearer than 2ρ, in drawings 3ρ (where points are sparse 1.6 and 2.5 times their spacing, or so); a < b
   std::vector<std::pair<int, int>> neighbours;  ///< those of them whose local normals there are within τ
 };
 

@@ -38,7 +38,8 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
     const auto no_other = [&](std::uint32_t block) {
       return region_of_block[block] == VoxelGrid::kNone || region_of_block[block] == r;
     };
-    double unexplained = 0, own = 0, others = 0, beside = 0;  // points; squared distances of those explained; of these, the points beside a parallel plane
+    double unexplained = 0, own = 0, others = 0;  // points; squared distances of those explained
+    double beside = 0, own_beside = 0, others_beside = 0;  // the same of those that a parallel plane explains
     for (const int i : regions[r]) {
       const Moments& m = grid.moments[i];
       double least = std::numeric_limits<double>::infinity();
@@ -57,10 +58,10 @@ CellSets drop_rims(const VoxelGrid& grid, const Cells& cells, const Space& space
       } else {
         own += squared_distances(m, r);
         others += least;
-        beside += parallel * m.count;
+        if (parallel) beside += m.count, own_beside += squared_distances(m, r), others_beside += least;
       }
     }
-    const bool other_side = width[r] > kWide * grid.tolerance && beside > 0.5 * points[r] && others > kFarOff * own;
+    const bool other_side = width[r] > kWide * grid.tolerance && beside > 0.5 * points[r] && others_beside > kFarOff * own_beside;
     if (other_side) return false;
     return unexplained <= kUnexplained * points[r] || (unexplained <= kMostUnexplained * points[r] && others < own);
   };

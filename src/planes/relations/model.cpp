@@ -119,18 +119,20 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
   });
 }
 
-/// Lets patches go with the largest one that they adjoin, if that was set free from the direction that both had, and its own suits them: panes stay
-/// parallel to their wall.
+/// Lets patches go with the largest one of their orientation that they adjoin, if that was set free and its own suits them: panes stay parallel to their wall.
 void follow_freed(const Patches& patches, const std::vector<int>& frame, const std::vector<int>& local, Model& model) {
   constexpr double kSuits = 4.0;  // χ²: two standard errors
-  for (const auto& [a, b] : patches.neighbours) {  // a is no smaller than b; sorted, so that the largest neighbour comes first
-    const Surface& leader = model.surfaces[a];
-    Surface& other = model.surfaces[b];
-    const bool freed = leader.frame != frame[a], stayed = other.frame == frame[b];
-    if (!freed || !stayed || other.support.bowed || frame[a] != frame[b] || local[a] != local[b]) continue;
-    const Patch& patch = patches.patches[b];
-    const Vec3 n = model.normal(leader);
-    if (tilt_chi2(patch, n) < kSuits && noise_chi2(patch, n) < noise_chi2(patch, model.normal(other)) + kSuits) other.frame = leader.frame, other.local = leader.local;
+  std::vector<int> leader(patches.patches.size(), -1);
+  for (const auto& [a, b] : patches.neighbours)  // a is no smaller than b; sorted, so that the largest comes first
+    if (leader[b] < 0 && !patches.patches[a].bowed && !patches.patches[b].bowed && frame[a] == frame[b] && local[a] == local[b]) leader[b] = a;
+  for (int j = static_cast<int>(leader.size()) - 1; j >= 0; --j) {  // whom a patch follows comes before it, and has not followed anybody yet
+    if (leader[j] < 0) continue;
+    const Surface& ahead = model.surfaces[leader[j]];
+    Surface& own = model.surfaces[j];
+    if (ahead.frame == frame[leader[j]] || own.frame != frame[j]) continue;
+    const Patch& patch = patches.patches[j];
+    const Vec3 n = model.normal(ahead);
+    if (tilt_chi2(patch, n) < kSuits && noise_chi2(patch, n) < noise_chi2(patch, model.normal(own)) + kSuits) own.frame = ahead.frame, own.local = ahead.local;
   }
 }
 

@@ -33,7 +33,6 @@ constexpr std::size_t kMostUps = 20;  // directions with the most area that may 
 struct Bounds {
   Vec3 low = Vec3::Constant(kNowhere), high = Vec3::Constant(-kNowhere);
   double height() const { return 0.5 * (low.z() + high.z()); }
-  double area() const { return (high.x() - low.x()) * (high.y() - low.y()); }
 };
 
 /// What speaks for a direction as the vertical, m²: walls along it that are turned against each other, and level planes.
@@ -97,6 +96,7 @@ Bounds bounds_of(const ArrangedPlane& p, const Mat3& axes) {
 /// A level plane's outline and its holes, seen from above.
 struct Level {
   Bounds bounds;
+  double area = 0;  ///< m²
   std::vector<std::vector<Vec2>> rings;
 
   bool contains(const Vec2& p) const {
@@ -110,7 +110,7 @@ struct Level {
 };
 
 Level level_of(const ArrangedPlane& p, const Bounds& bounds, const Mat3& axes) {
-  Level level{bounds, {}};
+  Level level{bounds, p.area, {}};
   for (const std::vector<Vec3>& ring : p.polygon) {
     level.rings.emplace_back();
     for (const Vec3& c : ring) level.rings.back().push_back((axes.transpose() * c).head<2>());
@@ -120,7 +120,9 @@ Level level_of(const ArrangedPlane& p, const Bounds& bounds, const Mat3& axes) {
 
 /// Whether enough of the smaller plane lies above or below the other one: ground around a pit lies beside the pit's floor.
 bool lie_above_each_other(const Level& a, const Level& b) {
-  const Level &small = a.bounds.area() < b.bounds.area() ? a : b, &large = &small == &a ? b : a;
+  const Level &small = a.area < b.area ? a : b, &large = &small == &a ? b : a;
+  const Vec3 shared = a.bounds.high.cwiseMin(b.bounds.high) - a.bounds.low.cwiseMax(b.bounds.low);
+  if (!(shared.x() > 0 && shared.y() > 0)) return false;
   int own = 0, common = 0;
   for (int i = 0; i < kSamples * kSamples; ++i) {
     const Vec2 share((i % kSamples + 0.5) / kSamples, (i / kSamples + 0.5) / kSamples);
@@ -148,11 +150,11 @@ Gaps gaps_at(const Level& level, const std::vector<Level>& levels) {
   return gaps;
 }
 
-/// Below a floor is nothing, or the ceiling of the storey beneath; above a ceiling nothing, or the next floor, and its own floor below unless none is
-/// seen at all: ground beside a pit has neither.
-std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top, bool alone) {
+/// Below a floor is nothing, or the ceiling of the storey beneath; above a ceiling nothing, or the next floor, and its own floor below, unless nothing
+/// level is seen there: ground beside a pit has neither.
+std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top, bool lowest) {
   const bool floor = std::isinf(gaps.below) ? from_bottom < kAtEnd : gaps.below < kSlab * gaps.above && std::isfinite(gaps.above);
-  const bool ceiling = std::isinf(gaps.above) ? from_top < kAtEnd && (alone || std::isfinite(gaps.below)) : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
+  const bool ceiling = std::isinf(gaps.above) ? from_top < kAtEnd && (lowest || std::isfinite(gaps.below)) : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
   if (floor && !(ceiling && from_top < from_bottom)) return "floor";
   return ceiling ? "ceiling" : "horizontal";
 }
@@ -185,13 +187,15 @@ void tag_planes(Arrangement& result) {
     levels.push_back(level_of(result.planes[i], bounds[i], axes));
   }
 
+  double lowest = kNowhere;
+  for (const Level& level : levels) lowest = std::min(lowest, level.bounds.height());
   std::vector<double> rooms;  // heights
   for (std::size_t k = 0; k < large.size(); ++k) {
     const std::size_t i = large[k];
     const Gaps gaps = gaps_at(levels[k], levels);
     const double span = std::max(high - low, 1e-300);
     const bool roomy = span > kRoomy * std::sqrt(largest);
-    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere, levels.size() == 1);
+    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere, bounds[i].height() - lowest < kAtEnd * span);
     if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
   }
   const double room = rooms.empty() ? high - low : median(std::move(rooms));

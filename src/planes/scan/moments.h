@@ -9,7 +9,7 @@
 
 namespace unseen::planes {
 
-/// The space that planes are sought in: all of 3D, or a drawing, whose points share one coordinate. In a
+/// The space that planes are sought in: all of 3D, or a drawing, whose points share one coordinate, or nearly. In a
 /// drawing a "plane" is a line; its normal is orthogonal to `flat_axis`.
 struct Space {
   std::optional<Vec3> flat_axis;

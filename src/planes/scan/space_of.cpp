@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "planes/scan/scale.h"
 
@@ -32,27 +33,40 @@ bool fills_area(const Survey& survey, int axis) {
   return true;
 }
 
-/// Whether a sample lies between two parallel cuts: far thinner than it is wide, and as dense at one height as at another wherever one looks, while noise about a
-/// surface heaps up in its middle.
+/// Whether a sample lies between two parallel cuts: far thinner than it is wide, and evenly spread over that thickness wherever one looks. Noise about a surface heaps
+/// up in its middle, coordinates that are rounded come in steps, and ground is thinner at each place than as a whole.
 bool is_slice(const Survey& survey, int axis) {
-  constexpr double kThin = 0.005;    // of the lesser of the other two extents
-  constexpr double kUniform = 2.2;   // kurtosis: 1.8 of a uniform distribution, 3 of a normal one
-  constexpr double kSlanting = 0.2;  // of the variance: more is a surface that falls
+  constexpr double kThin = 0.005;           // of the lesser of the other two extents
+  constexpr double kEven = 1.8, kOff = 0.3;  // kurtosis: of a uniform distribution, and how far off it may be; of a normal one it is 3, of two levels 1
+  constexpr std::size_t kSteps = 8;         // of rounded coordinates, at least
+  constexpr double kWhole = 0.8;            // of the variance is seen within single cells
+  constexpr int kCells = 16, kFewest = 10;  // cells along the extent; points in one that tells
   const Vec3 extent = survey.high - survey.low;
   if (extent[axis] > kThin * std::min(extent[(axis + 1) % 3], extent[(axis + 2) % 3])) return false;
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& p : survey.sample) mean += p / static_cast<double>(survey.sample.size());
-  Mat3 covariance = Mat3::Zero();  // of the other two coordinates, and this one
-  double fourth = 0;
-  const auto about = [&](const Vec3& p) { return Vec3((p - mean)[(axis + 1) % 3], (p - mean)[(axis + 2) % 3], (p - mean)[axis]); };
+  struct Sums {
+    double count = 0, first = 0, second = 0;
+    double scatter() const { return second - first * first / count; }
+  };
+  KeyTable cells;
+  std::vector<Sums> in_cell;
+  Sums all;
   for (const Vec3& p : survey.sample) {
-    const Vec3 d = about(p);
-    covariance += d * d.transpose();
-    fourth += std::pow(d.z(), 4);
+    const Vec3 at = (p - survey.low) / survey.extent() * kCells * (1 - 1e-9);
+    const std::size_t cell = cells.insert({static_cast<std::int32_t>(at[(axis + 1) % 3]), static_cast<std::int32_t>(at[(axis + 2) % 3]), 0});
+    if (cell == in_cell.size()) in_cell.emplace_back();
+    const double height = (p - survey.low)[axis] / extent[axis];
+    for (Sums* sums : {&all, &in_cell[cell]}) ++sums->count, sums->first += height, sums->second += height * height;
   }
-  const Vec2 across = covariance.topRightCorner<2, 1>();
-  const double variance = covariance(2, 2), slanting = across.dot(covariance.topLeftCorner<2, 2>().ldlt().solve(across));
-  return slanting < kSlanting * variance && fourth * static_cast<double>(survey.sample.size()) < kUniform * variance * variance;
+  std::vector<double> heights;
+  for (const Vec3& p : survey.sample) heights.push_back(p[axis]);
+  std::sort(heights.begin(), heights.end());
+  if (static_cast<std::size_t>(std::unique(heights.begin(), heights.end()) - heights.begin()) <= kSteps) return false;
+  double fourth = 0, within = 0, counted = 0;
+  for (const Vec3& p : survey.sample) fourth += std::pow((p - survey.low)[axis] / extent[axis] - all.first / all.count, 4);
+  for (const Sums& sums : in_cell)
+    if (sums.count >= kFewest) within += sums.scatter(), counted += sums.count - 1;
+  const double variance = all.scatter() / all.count;
+  return std::abs(fourth / all.count - kEven * variance * variance) < kOff * variance * variance && within > kWhole * variance * counted && counted > 0;
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ std::vector<std::vector<Orientation>> suiting(const Patches& patches, const std:
   return suits;
 }
 
-/// Leaves a patch, of the orientations that suit it, those which suit the largest patch that it adjoins, too, if that one's own suits it: panes go with their wall.
+/// Leaves a patch, of the orientations that suit it, those which suit the largest of the patches that it adjoins and whose own suits it, too: panes go with their wall.
 void follow_neighbours(const Patches& patches, const std::vector<Vec3>& has, std::vector<std::vector<Orientation>>& suits) {
   std::vector<std::size_t> leader(patches.patches.size());
   std::iota(leader.begin(), leader.end(), 0);
