@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/video/mask_shape.h"
 #include "collision/video/shadow.h"
 #include "collision/video/worst_channel.h"
 
@@ -57,8 +58,8 @@ void sharpen_outline(cv::Mat& mask, const cv::Mat& difference) {
   cv::Mat contrast, inside, limit;
   cv::Mat masked = cv::Mat::zeros(difference.size(), CV_8U);
   difference.copyTo(masked, mask);
-  cv::dilate(masked, contrast, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kContrastReach, kContrastReach}));
-  cv::erode(mask, inside, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
+  cv::dilate(masked, contrast, disc(kContrastReach));
+  cv::erode(mask, inside, disc(7), {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
   contrast.convertTo(limit, CV_8U, kHalf);
   cv::Mat weak = difference < limit;
   weak &= ~inside;
@@ -115,9 +116,9 @@ bool refine(const cv::Mat& frame, const Background& background, const cv::Mat& d
   part.sign = shade.sign;
   if (!part.shadow) {
     cv::Mat lit = part.mask & ~shade.mask;
-    const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
+    const cv::Mat element = disc(3);
     cv::morphologyEx(lit, lit, cv::MORPH_OPEN, element, {-1, -1}, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
-    cv::morphologyEx(lit, lit, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {7, 7}));
+    cv::morphologyEx(lit, lit, cv::MORPH_CLOSE, disc(7));
     if (cv::countNonZero(lit) > kCore * area) {
       if (shade.sign == ShadowSign::light) part.dimmed = static_cast<double>(cv::countNonZero(part.mask & shade.mask)) / area;
       part.mask = lit;
@@ -153,7 +154,7 @@ double stadium_width(double area, double across) {
 std::vector<Part> find_parts(const cv::Mat& frame, const Background& background, double edge_slack) {
   const cv::Mat d = difference(frame, background.picture), low = threshold_of(background, edge_slack);
   cv::Mat above = d > low, high, labels, stats, centers;
-  cv::morphologyEx(above, above, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  cv::morphologyEx(above, above, cv::MORPH_CLOSE, disc(3));
   low.convertTo(high, CV_8U, kHigh);
   const cv::Mat seeds = d > high;
   const int count = cv::connectedComponentsWithStats(above, labels, stats, centers, 8, CV_32S);

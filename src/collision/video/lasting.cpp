@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/video/mask_shape.h"
 #include "collision/video/worst_channel.h"
 #include "unseen/core/quantile.h"
 
@@ -136,7 +137,7 @@ double off_around(const cv::Mat& picture, const cv::Mat& patch, const cv::Mat& a
 /// Where the median differs from the lasting colours, in patches that these make plainer, or, hardly rougher, clearly more like what is
 /// around them, as where there is texture: a ghost goes. Edges of the background that shake or drift are unsettled too, and get rougher.
 cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
-  const cv::Mat element = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kThick, kThick});
+  const cv::Mat element = disc(kThick);
   cv::Mat labels, stats, centers, ghost = worst_difference(lasting, median) > kOff;
   cv::morphologyEx(ghost, ghost, cv::MORPH_CLOSE, element);
   cv::morphologyEx(ghost, ghost, cv::MORPH_OPEN, element);
@@ -151,7 +152,7 @@ cv::Mat ghosts(const cv::Mat& lasting, const cv::Mat& median) {
     const cv::Mat patch = labels(box) == i;
     cv::Mat with_rim, around;
     cv::dilate(patch, with_rim, element);
-    cv::dilate(patch, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kAround + 1, 2 * kAround + 1}));
+    cv::dilate(patch, around, disc(2 * kAround + 1));
     around &= ~with_rim & settled(box);
     const double rough = total_variation(mended(box), with_rim) / std::max(1.0, total_variation(median(box), with_rim));
     const bool plainer = rough <= kPlainer;
@@ -188,11 +189,11 @@ void restore_lasting(const std::vector<cv::Mat>& frames, cv::Mat& picture, cv::M
           describe(column, best, color, spread.at<cv::Vec3b>(y, x));
       }
   });
-  const cv::Mat around = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kAround, kAround});
+  const cv::Mat around = disc(kAround);
   cv::Mat near, wide;
   cv::dilate(ghosts(lasting, picture), near, around);
   passed &= worst_difference(lasting, picture) <= kOff;
-  cv::morphologyEx(passed & (worst_channel(deviation) > kUnsteady), wide, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kWide, kWide}));
+  cv::morphologyEx(passed & (worst_channel(deviation) > kUnsteady), wide, cv::MORPH_OPEN, disc(kWide));
   cv::dilate(wide, wide, around);
   spread.copyTo(deviation, passed & wide);
   covered &= near;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "collision/video/mask_shape.h"
 #include "collision/video/other_colors.h"
 
 namespace unseen::collision {
@@ -20,8 +21,6 @@ constexpr double kSmoother = 0.6;   // what is behind: its step at the outline, 
 constexpr int kSmallest = 30;       // px
 constexpr int kMargin = 12;         // px, of what is looked at around a part
 constexpr int kFilledFrom = 3;      // px, that a hole is filled from
-
-cv::Mat disc5() { return cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}); }
 
 /// Fills `hole` from around it inward, each pixel with the mean of what is known near it.
 cv::Mat filled(const cv::Mat& picture, const cv::Mat& hole) {
@@ -51,7 +50,7 @@ bool is_like(const cv::Vec3b& color, const cv::Vec3f& expected) {
 /// `hole` as it is filled from around it and its own blurred rim.
 cv::Mat surroundings(const cv::Mat& picture, const cv::Mat& hole) {
   cv::Mat larger;
-  cv::dilate(hole, larger, disc5());
+  cv::dilate(hole, larger, disc(5));
   return filled(picture, larger);
 }
 
@@ -61,7 +60,7 @@ std::vector<cv::Vec3b> texture_around(const cv::Mat& picture, const cv::Mat& hol
   constexpr double kTextured = 0.03;  // of what is around
   constexpr std::size_t kEnough = 1000;
   cv::Mat ring, known, weight, sum, weights;
-  cv::dilate(hole, ring, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kMargin + 1, 2 * kMargin + 1}));
+  cv::dilate(hole, ring, disc(2 * kMargin + 1));
   cv::Mat(~hole).convertTo(weight, CV_32F, 1.0 / 255.0);
   picture.convertTo(known, CV_32FC3);
   known.setTo(0, hole);
@@ -111,8 +110,8 @@ cv::Mat with_shadow(const cv::Mat& picture, const cv::Mat& part, const OtherColo
       const std::vector<cv::Vec3b> colors = others.at(corner + cv::Point(x, y));
       if (std::any_of(colors.begin(), colors.end(), [&](const cv::Vec3b& c) { return is_like(c, fill.at<cv::Vec3f>(y, x)); })) whole.at<unsigned char>(y, x) = 255;
     }
-  cv::morphologyEx(whole, whole, cv::MORPH_CLOSE, disc5());
-  cv::morphologyEx(whole, whole, cv::MORPH_OPEN, disc5());
+  cv::morphologyEx(whole, whole, cv::MORPH_CLOSE, disc(5));
+  cv::morphologyEx(whole, whole, cv::MORPH_OPEN, disc(5));
   return whole;
 }
 
@@ -167,10 +166,10 @@ double step_at_outline(const cv::Mat& inside, const cv::Mat& outside, const cv::
 void remove_resting(const std::vector<cv::Mat>& frames, const cv::Mat& noise, cv::Mat& picture, const Context& context) {
   const OtherColors others = other_colors(frames, noise, picture, context);
   cv::Mat came_or_went, labels, stats, centers;
-  cv::morphologyEx(others.follow, came_or_went, cv::MORPH_CLOSE, disc5());
-  cv::morphologyEx(came_or_went, came_or_went, cv::MORPH_OPEN, disc5());
+  cv::morphologyEx(others.follow, came_or_went, cv::MORPH_CLOSE, disc(5));
+  cv::morphologyEx(came_or_went, came_or_went, cv::MORPH_OPEN, disc(5));
   came_or_went = standing_out(picture, came_or_went);
-  cv::morphologyEx(came_or_went, came_or_went, cv::MORPH_OPEN, disc5());
+  cv::morphologyEx(came_or_went, came_or_went, cv::MORPH_OPEN, disc(5));
   const int count = cv::connectedComponentsWithStats(came_or_went, labels, stats, centers, 8);
   for (int i = 1; i < count; ++i) {
     const int area = stats.at<int>(i, cv::CC_STAT_AREA), reach = cvRound(kBeside * std::sqrt(area)), margin = reach + kMargin;
@@ -181,9 +180,9 @@ void remove_resting(const std::vector<cv::Mat>& frames, const cv::Mat& noise, cv
                          cv::Rect({0, 0}, picture.size());
     const cv::Mat part = with_shadow(picture(box), labels(box) == i, others, box.tl(), reach);
     cv::Mat smaller, larger, largest, seen;
-    cv::erode(part, smaller, disc5());
-    cv::dilate(part, larger, disc5());
-    cv::dilate(larger, largest, disc5());
+    cv::erode(part, smaller, disc(5));
+    cv::dilate(part, larger, disc(5));
+    cv::dilate(larger, largest, disc(5));
     const cv::Mat inner = part & ~smaller, outer = largest & ~larger, second = behind(picture(box), larger, others, box.tl(), seen);
     if (cv::countNonZero(inner & seen) < kRevealed * cv::countNonZero(inner)) continue;
     const double kept = step_at_outline(picture(box), picture(box), inner, outer), other = step_at_outline(second, picture(box), inner, outer);
