@@ -89,7 +89,7 @@ inline VoxelGrid grid_of(const PointCloud& cloud, double edge) {
 inline CellSets pieces_of(const VoxelGrid& grid) {
   std::vector<int> region(grid.size());
   std::iota(region.begin(), region.end(), 0);
-  return best_cut(grid, {}, region);
+  return best_cut(grid, {}, region).pieces;
 }
 
 /// The cloud as a source that streams blocks and cannot be looked at as a whole.

@@ -70,6 +70,7 @@ double least_step(const VoxelGrid& grid, double variance) {
 struct Cut {
   int at = 0;  ///< slices below it are one side; 0 = none
   double error = std::numeric_limits<double>::infinity();
+  bool bent = false;      ///< a little: between flat hinges and steps
   bool too_many = false;  ///< pieces
 };
 
@@ -89,7 +90,7 @@ Cut best_single(std::span<const Moments> slice, const VoxelGrid& grid, const Spa
     const double hinge = line_angle(a.fit.normal, b.fit.normal);
     if (hinge < kSplitAngle && error > (hinge < kShallow ? stepped : shallow)) continue;
     if (hinge < kShallow && step_between(a, b) < least_step(grid, error / (below.count + above[c].count))) continue;
-    best = {c, error};
+    best = {c, error, hinge >= kShallow && hinge < kSplitAngle};
   }
   return best;
 }
@@ -160,6 +161,7 @@ Cut sharpest_bend(const std::vector<Moments>& slice, const VoxelGrid& grid, cons
     if (const double step = step_between(straight[p], straight[p + 1]); step > highest) highest = step, step_at = ends[p + 1];
   }
   cut.at = bend_at > 0 ? bend_at : step_at;
+  cut.bent = bend_at > 0 && sharpest < kSplitAngle;
   return cut;
 }
 
@@ -169,7 +171,7 @@ Cut best_within(const std::vector<Moments>& slice, const VoxelGrid& grid, const 
   for (int from = 0; from + kSlices <= static_cast<int>(slice.size()); from += kShift) {
     const auto window = std::span(slice).subspan(from, kSlices);
     const double error = squared_error(std::accumulate(window.begin(), window.end(), Moments{}, [](const Moments& a, const Moments& b) { return a + b; }), space);
-    if (const Cut cut = best_single(window, grid, space, best.error * error, kShallowGain * error, best.error * error); cut.at > 0) best = {from + cut.at, cut.error / error};
+    if (const Cut cut = best_single(window, grid, space, best.error * error, kShallowGain * error, best.error * error); cut.at > 0) best = {from + cut.at, cut.error / error, cut.bent};
   }
   return best;
 }
@@ -181,7 +183,7 @@ double squared_error(const Moments& m, const Space& space) {
   return fit.rms * fit.rms * m.count;
 }
 
-CellSets best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
+Pieced best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
   const Moments whole = sum_of(grid, region);
   const PlaneFit fit = fit_plane(whole, space);
   const bool large = region.size() >= kShallowCells;
@@ -202,9 +204,9 @@ CellSets best_cut(const VoxelGrid& grid, const Space& space, const std::vector<i
   for (const Slices& along : slices)
     if (const Cut cut = best_single(along.sum, grid, space, best.error, shallow, shallow); cut.at > 0) best = cut, of_best = &along;
   if (large && !space.is_2d())
-    if (Islands islands = islands_in(grid, region, whole, fit); !islands.pieces.empty() && islands.error < best.error) return std::move(islands.pieces);
+    if (Islands islands = islands_in(grid, region, whole, fit); !islands.pieces.empty() && islands.error < best.error) return {std::move(islands.pieces)};
   if (of_best == nullptr && large && !space.is_2d()) {
-    if (Facets facets = facets_in(grid, region, whole, fit); !facets.pieces.empty()) return std::move(facets.pieces);
+    if (Facets facets = facets_in(grid, region, whole, fit); !facets.pieces.empty()) return {std::move(facets.pieces), true};
     best = {};
     bool too_many = false;
     for (const Slices& along : slices) {
@@ -219,9 +221,9 @@ CellSets best_cut(const VoxelGrid& grid, const Space& space, const std::vector<i
     }
   }
   if (of_best == nullptr) return {};
-  CellSets sides(2);
-  for (std::size_t i = 0; i < region.size(); ++i) sides[of_best->of_voxel[i] < best.at ? 0 : 1].push_back(region[i]);
-  return sides;
+  Pieced cut{CellSets(2), best.bent};
+  for (std::size_t i = 0; i < region.size(); ++i) cut.pieces[of_best->of_voxel[i] < best.at ? 0 : 1].push_back(region[i]);
+  return cut;
 }
 
 }  // namespace unseen::planes

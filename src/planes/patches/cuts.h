@@ -8,9 +8,15 @@
 
 namespace unseen::planes {
 
-/// The pieces (voxels) that a region is cut into; none if no cut is clearly better than one plane. The two sides of the straight cut that leaves the
+/// What a region is cut into.
+struct Pieced {
+  CellSets pieces;    ///< voxels; none if no cut is clearly better than one plane
+  bool bent = false;  ///< at shallow bends, as waves on a plane could also leave them
+};
+
+/// The pieces of a region; none if no cut is clearly better than one plane. The two sides of the straight cut that leaves the
 /// least squared error to a plane each, or the islands on it, if these leave less. Where the region is bent several times, as facades along a
 /// zigzag, no single cut is better: then the cut at the sharpest bend.
-CellSets best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region);
+Pieced best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region);
 
 }  // namespace unseen::planes

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace unseen::planes {
@@ -57,12 +56,10 @@ Blocks blocks_of(const VoxelGrid& grid, const std::vector<int>& region, const Pl
   }
   for (Block& b : blocks.at) {
     if (b.sum.count < kFewestPoints) continue;
-    const Vec3 along_u = b.sum.scatter * fit.u, along_v = b.sum.scatter * fit.v;
-    const double uu = fit.u.dot(along_u), uv = fit.v.dot(along_u), vv = fit.v.dot(along_v), uw = fit.normal.dot(along_u), vw = fit.normal.dot(along_v);
-    const double determinant = uu * vv - uv * uv;
-    if (!(determinant > kThin * uu * vv)) continue;
-    b.slope = Eigen::Vector2d(vv * uw - uv * vw, uu * vw - uv * uw) / determinant;
-    b.error = fit.normal.dot(b.sum.scatter * fit.normal) - b.slope.x() * uw - b.slope.y() * vw;
+    const std::optional<Slope> slope = slope_of(b.sum, fit);
+    if (!slope) continue;
+    b.slope = slope->slope;
+    b.error = slope->error;
     b.known = true;
   }
   return blocks;
@@ -171,6 +168,15 @@ std::optional<Facets> facets_of(const VoxelGrid& grid, const std::vector<int>& r
 }
 
 }  // namespace
+
+std::optional<Slope> slope_of(const Moments& points, const PlaneFit& plane) {
+  const Vec3 along_u = points.scatter * plane.u, along_v = points.scatter * plane.v;
+  const double uu = plane.u.dot(along_u), uv = plane.v.dot(along_u), vv = plane.v.dot(along_v), uw = plane.normal.dot(along_u), vw = plane.normal.dot(along_v);
+  const double determinant = uu * vv - uv * uv;
+  if (!(determinant > kThin * uu * vv)) return std::nullopt;
+  const Eigen::Vector2d slope = Eigen::Vector2d(vv * uw - uv * vw, uu * vw - uv * uw) / determinant;
+  return Slope{slope, plane.normal.dot(points.scatter * plane.normal) - slope.x() * uw - slope.y() * vw};
+}
 
 Facets facets_in(const VoxelGrid& grid, const std::vector<int>& region, const Moments& whole, const PlaneFit& fit) {
   for (const int side : kSides) {

@@ -2,9 +2,20 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <optional>
+
 #include "planes/patches/patches.h"
 
 namespace unseen::planes {
+
+/// Which way points face.
+struct Slope {
+  Eigen::Vector2d slope;  ///< against a plane, along its axes
+  double error;           ///< m², squared, about their own plane
+};
+
+/// None of points in a line, which tell no slope across it. `plane`: against which.
+std::optional<Slope> slope_of(const Moments& points, const PlaneFit& plane);
 
 /// A region in facets.
 struct Facets {

@@ -61,16 +61,8 @@ double threshold_of(const std::vector<double>& height, const VoxelGrid& grid, co
 
 /// The normal of most small pieces: a plane over two levels is tilted by where these lie.
 Vec3 local_normal(const VoxelGrid& grid, const std::vector<int>& region) {
-  KeyTable pieces;
-  std::vector<Moments> sums;
-  for (const int i : region) {
-    const VoxelKey& k = grid.keys[i];
-    const std::size_t at = pieces.insert({k[0] >> kPieceBits, k[1] >> kPieceBits, k[2] >> kPieceBits});
-    if (at == sums.size()) sums.emplace_back();
-    sums[at] += grid.moments[i];
-  }
   Moments pooled;
-  for (const Moments& m : sums) {
+  for (const Moments& m : sums_of_cubes(grid, region, kPieceBits)) {
     pooled.count += m.count;
     pooled.scatter += m.scatter;
   }

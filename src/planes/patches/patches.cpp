@@ -110,7 +110,10 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   for (std::size_t j = 0; j < result.patches.size(); ++j)
     for (const int i : result.patches[j].cells) result.patch_of_cell[i] = static_cast<int>(j);
   find_neighbours(grid, cells, space, angle, result, context);
-  if (!space.is_2d()) mark_bowed(grid, context, result);
+  if (space.is_2d()) return result;
+  mark_bowed(grid, context, result);
+  result.waves = waves_of(grid, result, context);
+  for (Patch& patch : result.patches) add_waves(result.waves, patch);
   return result;
 }
 

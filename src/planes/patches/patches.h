@@ -26,15 +26,28 @@ struct Patch {
   bool bowed = false;       ///< a strip of a curved surface: which way it faces means nothing
 };
 
+/// How far noise that is correlated over more than a small surface turns it (see waves.cpp).
+struct Waves {
+  double finest = 0;               ///< m, the width of surfaces that `dependence` begins with; each following ones are twice as wide
+  std::vector<double> dependence;  ///< one over how many of the points of such a surface are independent
+
+  /// Of the tilt (rad²) of a surface along an axis, from its rms and its spread along and across that axis (m).
+  double variance(double rms, double spread, double across) const;
+};
+
 struct Patches {
   std::vector<Patch> patches;                  ///< by falling area
   double least_noise = 0;                      ///< m, half the typical noise, or what rounding leaves: for make_patch
+  Waves waves;                                 ///< that large patches show
   std::vector<int> patch_of_cell;              ///< −1 = none
   std::vector<std::pair<int, int>> adjoining;   ///< closest points nearer than 2ρ, in drawings 3ρ (where points are sparse 1.6 and 2.5 times their spacing, or so); a < b
   std::vector<std::pair<int, int>> neighbours;  ///< those of them whose local normals there are within τ
 };
 
 Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells);
+
+/// Moments of the cubes, 2^bits voxels wide, that a set of voxels lies in.
+std::vector<Moments> sums_of_cubes(const VoxelGrid& grid, const std::vector<int>& cells, int bits);
 
 /// Of points to their own plane, m².
 double squared_error(const Moments& m, const Space& space);
@@ -48,6 +61,12 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
 
 /// The variance (rad²) of a fit's tilt along one of its axes with at least as much as independent points leave, `spread` (m) along it.
 double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, double spread);
+
+/// The waves that large patches show: how far square windows of them are turned against the whole.
+Waves waves_of(const VoxelGrid& grid, const Patches& patches, const Context& context);
+
+/// Makes a patch's tilts as uncertain as waves leave them.
+void add_waves(const Waves& waves, Patch& patch);
 
 /// Marks patches that are bent as the turns to those that adjoin ask for.
 void mark_bowed(const VoxelGrid& grid, const Context& context, Patches& patches);

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
-// Splitting and merging of regions: planes must not cut corners, nor stop at gaps in the data.
+// Merging of regions: planes must not stop at gaps in the data.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
-#include "planes/patches/cuts.h"
+#include "planes/patches/patches.h"
 
 namespace unseen::planes {
 namespace {
 
 constexpr double kMergeLoss = 1.2;       // a merge may raise either part's rms by this factor
-constexpr std::size_t kSplitCells = 12;  // smaller regions are left alone
 
 struct Region {
   std::vector<int> cells;
@@ -73,27 +72,16 @@ Moments sum_of(const VoxelGrid& grid, const std::vector<int>& cells) {
   return sum;
 }
 
-CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context, const CellSets& uncut) {
-  CellSets result;
-  while (!regions.empty()) {
-    std::vector<CellSets> cuts(regions.size());
-    parallel_blocks(context, regions.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t r = begin; r < end; ++r)
-        if (regions[r].size() >= kSplitCells && !std::binary_search(uncut.begin(), uncut.end(), regions[r])) cuts[r] = best_cut(grid, space, regions[r]);
-    });
-    CellSets parts;
-    for (std::size_t r = 0; r < regions.size(); ++r) {
-      if (cuts[r].empty()) {
-        std::sort(regions[r].begin(), regions[r].end());
-        result.push_back(std::move(regions[r]));
-      } else {
-        std::move(cuts[r].begin(), cuts[r].end(), std::back_inserter(parts));
-      }
-    }
-    regions = std::move(parts);
+std::vector<Moments> sums_of_cubes(const VoxelGrid& grid, const std::vector<int>& cells, int bits) {
+  KeyTable cubes;
+  std::vector<Moments> sums;
+  for (const int i : cells) {
+    const VoxelKey& k = grid.keys[i];
+    const std::size_t at = cubes.insert({k[0] >> bits, k[1] >> bits, k[2] >> bits});
+    if (at == sums.size()) sums.emplace_back();
+    sums[at] += grid.moments[i];
   }
-  std::sort(result.begin(), result.end());
-  return result;
+  return sums;
 }
 
 CellSets merge_regions(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle,

@@ -75,6 +75,7 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
       if (!cells[j].empty()) {
         patches[j] = make_patch(grid, space, std::move(cells[j]), known.least_noise, surface);
         patches[j].bowed = known.patches[j].bowed;
+        add_waves(known.waves, patches[j]);
       }
   });
   const std::vector<Mat3> turns = turn_covariances(patches, normals, frame, model.frames.size());
@@ -115,6 +116,7 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
       const bool bowed = support.bowed;
       support = make_patch(grid, space, std::move(all), known.least_noise, surface);
       support.bowed = bowed;
+      add_waves(known.waves, support);
     }
   });
 }
