@@ -11,7 +11,7 @@ OptionTable describe(Options& o) {
   OptionTable t;
   t.add({"friction", &o.friction, "1", "friction coefficient of all contacts", 0.0, 10.0, {}});
   t.add({"density", &o.density, "kg/m³", "density of what the frame names none for", kTiny, 1e5, {}});
-  t.add({"noise", &o.noise, "m", "standard deviation of the depth at 1 m; it grows with the square of the depth (default: as in flat patches of the frame, at most 0.0015, a Kinect's)", kTiny, 0.1, {}});
+  t.add({"noise", &o.noise, "m", "standard deviation of the depth at 1 m; it grows with the square of the depth (default: as in flat patches of the frame, at most 0.0015, a Kinect's, or 0.004 where errors of neighbours are alike)", kTiny, 0.1, {}});
   t.add({"gap", &o.gap, "m", "parts of one object are at most this far apart (default: from noise and pixel spacing)", kTiny, 1.0, {}});
   t.add({"fill", &o.fill, "1", "share of a box that must be surface or hidden", 0.1, 1.0, {}});
   t.add({"stable_residual", &o.stable_residual, "1", "an arrangement with a smaller residual stands; --check decides exactly", 1e-9, 1.0, {}});

@@ -64,6 +64,31 @@ TEST(DepthNoise, OfSmoothedDepthIsThatOfAKinect) {
   EXPECT_EQ(depth_noise(frame, {}), 0.0015);
 }
 
+/// Errors of block matching are alike over its blocks; of a stereo camera they are larger than those of a Kinect.
+TEST(DepthNoise, OfStereoCountsThoughItIsSmooth) {
+  Scene scene;
+  scene.noise = 0.0;
+  scene.boxes = {upright(0, 0.8, 0, {0.3, 0.2, 0.15}, 20)};
+  RgbdFrame frame = render(scene);
+  const int width = frame.camera.width;
+  Random random(4);
+  std::vector<double> white;
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) white.push_back(random.normal());
+  for (int y = 2; y + 2 < frame.camera.height; ++y)
+    for (int x = 2; x + 2 < width; ++x) {
+      double sum = 0;
+      for (int k = 0; k < 25; ++k) sum += white[static_cast<std::size_t>((y + k / 5 - 2) * width + x + k % 5 - 2)];
+      float& depth = frame.depth[static_cast<std::size_t>(y * width + x)];
+      depth += static_cast<float>(0.0035 * depth * depth * sum / 5.0);
+    }
+  const double noise = depth_noise(frame, {});
+  EXPECT_GT(noise, 0.002);
+  EXPECT_LT(noise, 0.0035);
+  Context context;
+  with_depth_noise(frame, {}, context);
+  EXPECT_EQ(context.take_warnings().size(), 1u);
+}
+
 TEST(DepthNoise, OfCoarseStepsIsAsWideAsThese) {
   Scene scene;
   scene.noise = 0.0003;

@@ -24,6 +24,7 @@ constexpr std::size_t kFewestPatches = 20;
 constexpr double kFlatShare = 0.25;       // of the patches; the others hold edges and curved surfaces
 constexpr double kWarps = 1.3;            // errors of wider reach, by which sensors are worse than their patches say
 constexpr double kSmooth = 0.5;           // correlation of neighbours: noise has little
+constexpr double kSmoothed = 0.7, kMostSmoothed = 0.004;  // of what patches of smooth noise say, as a Kinect's do; m
 constexpr double kExact = 1e-5;           // m: no noise to be correlated, and no step
 constexpr double kOffStep = 0.05;         // of a step
 
@@ -84,7 +85,8 @@ std::vector<double> each(const std::vector<Patch>& patches, double Patch::* valu
 
 struct MeasuredNoise {
   double value = kKinect;
-  double scatter = 0;  ///< m at 1 m, of flat patches without correlation, however large; 0 = not known
+  double scatter = 0;  ///< m at 1 m, of flat patches, however large; 0 = not known
+  bool smooth = false; ///< it counts as far as `value` has it
 };
 
 MeasuredNoise measure_noise(const RgbdFrame& frame) {
@@ -95,7 +97,10 @@ MeasuredNoise measure_noise(const RgbdFrame& frame) {
   if (patches.size() < kFewestPatches) return {};
   const double flattest = quantile(each(patches, &Patch::noise), kFlatShare), step = std::min(median(each(patches, &Patch::step)), kCoarsest);
   std::erase_if(patches, [&](const Patch& patch) { return patch.noise > flattest; });
-  if (flattest > kExact && median(each(patches, &Patch::correlation)) > kSmooth) return {std::max(kKinect, step)};
+  if (flattest > kExact && median(each(patches, &Patch::correlation)) > kSmooth) {
+    const double smoothed = std::min(kSmoothed * flattest, kMostSmoothed);
+    return smoothed > std::max(kKinect, step) ? MeasuredNoise{smoothed, flattest, true} : MeasuredNoise{std::max(kKinect, step)};
+  }
   return {std::max(std::clamp(kWarps * flattest, kBest, kKinect), step), flattest};
 }
 
@@ -108,7 +113,9 @@ Options with_depth_noise(const RgbdFrame& frame, Options options, Context& conte
   if (options.noise) return options;
   const MeasuredNoise measured = measure_noise(frame);
   options.noise = measured.value;
-  if (measured.value > kKinect)
+  if (measured.smooth)
+    context.warn(fmt::format("the depth scatters by {:.1f} mm at 1 m, alike nearby, as that of stereo cameras: boxes are no more exact, and small ones are lost", 1000.0 * measured.scatter));
+  else if (measured.value > kKinect)
     context.warn(fmt::format("the depth comes in coarse steps, as wide as noise of {:.1f} mm at 1 m: boxes are no more exact", 1000.0 * measured.value));
   else if (measured.scatter > kClearly * kKinect)
     context.warn(fmt::format("the depth scatters by {0:.1f} mm at 1 m, more than what boxes are told apart with: far walls may be cut into boxes (--noise {1:.4f} keeps them whole, and loses "
