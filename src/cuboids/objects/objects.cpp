@@ -28,6 +28,11 @@ constexpr std::size_t kFewPoints = 500;         // so few may be a strip along a
 constexpr double kStrip = 8.0;                 // widths, in spacing
 constexpr double kLowest = 4.0;               // σ above the supports; below, it is speckle of theirs
 constexpr std::size_t kMostNamed = 10;         // masks, in a warning
+constexpr std::size_t kRoughStep = 4;          // every so many points tell how rough a support is,
+constexpr double kRoughest = 0.05;             // m; if they are no farther from it,
+constexpr double kLeastSlant = 0.3;            // cosine: that a ray meets it at, at the least,
+constexpr double kBelow = 0.16, kBelowNormal = 0.994, kMedian = 0.6745;  // of a normal distribution: that is below so many standard deviations; of half the absolute values
+constexpr double kMostRough = 0.01;            // m: what scatters more is no surface
 constexpr double kOutside = 0.02;             // m beyond the outline of the ground, where something else carries
 
 /// Points of equal non-negative group that links connect.
@@ -72,8 +77,35 @@ std::vector<int> candidates(const Observation& seen) {
   return group;
 }
 
-/// Too few points, or no farther from the supports than their own noise.
-bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_t fewest) {
+/// m: how rough the ground and desks are beyond the noise of the depth, as grass or a carpet. What lies below their planes tells: nothing stands there.
+std::vector<double> roughness_of(const Observation& seen) {
+  std::vector<double> roughness;
+  for (const Support& support : seen.supports) {
+    const std::vector<Vec2> outline = plan_of(support);
+    std::vector<std::pair<double, double>> measured;  // the noise of the height, and the height
+    for (std::size_t i = 0; i < seen.points.size() && support.kind <= SupportKind::desk; i += kRoughStep) {
+      const double height = support.plane.signed_distance(seen.points[i]);
+      if (std::abs(height) > kRoughest || (!outline.empty() && !inside_convex(outline, seen.points[i].head<2>(), 0.0))) continue;
+      const double slant = std::abs(support.plane.normal.dot((seen.points[i] - seen.T_world_camera.translation).normalized()));
+      measured.emplace_back(seen.graph.sigma[i] * std::max(slant, kLeastSlant), height);
+    }
+    std::sort(measured.begin(), measured.end());
+    measured.resize((measured.size() + 1) / 2);  // where it is measured best
+    std::vector<double> heights, off;
+    double variance = 0;
+    for (const auto& [noise, height] : measured) {
+      heights.push_back(height);
+      off.push_back(std::abs(height));
+      variance += noise * noise / static_cast<double>(measured.size());
+    }
+    const double scatter = std::min(std::max(-quantile(std::move(heights), kBelow), 0.0) / kBelowNormal, median(std::move(off)) / kMedian);
+    roughness.push_back(scatter > kMostRough ? 0.0 : std::sqrt(std::max(scatter * scatter - variance, 0.0)));
+  }
+  return roughness;
+}
+
+/// Too few points, or no farther from the supports than their own noise, or than these are rough.
+bool is_debris(const Observation& seen, const std::vector<double>& roughness, const std::vector<int>& part, std::size_t fewest) {
   if (part.size() < fewest) return true;
   if (part.size() < kFewPoints) {
     Vec3 mean = Vec3::Zero();
@@ -83,12 +115,13 @@ bool is_debris(const Observation& seen, const std::vector<int>& part, std::size_
     const double width = std::sqrt(12.0 * std::max(symmetric_eigen(second).values[1], 0.0));
     if (width < kStrip * seen.graph.spacing[part.front()]) return true;
   }
-  for (const Support& support : seen.supports) {
+  for (std::size_t s = 0; s < seen.supports.size(); ++s) {
+    const Support& support = seen.supports[s];
     const std::vector<Vec2> outline = plan_of(support);
     std::vector<double> height;
     for (const int i : part) {
       const bool beside = !outline.empty() && support.kind <= SupportKind::desk && !inside_convex(outline, seen.points[i].head<2>(), kOutside);
-      height.push_back(beside ? kLowest : std::abs(support.plane.signed_distance(seen.points[i])) / seen.graph.sigma[i]);
+      height.push_back(beside ? kLowest : std::abs(support.plane.signed_distance(seen.points[i])) / std::hypot(seen.graph.sigma[i], roughness[s]));
     }
     if (quantile(std::move(height), 0.9) < kLowest) return true;
   }
@@ -149,12 +182,13 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   }
   context.check();
   std::vector<ObjectPart> parts;
+  const std::vector<double> roughness = roughness_of(seen);
   std::size_t debris = 0;
   std::vector<std::vector<int>> pieces = components(seen, object);
   const std::size_t total = std::accumulate(pieces.begin(), pieces.end(), std::size_t{0}, [](std::size_t n, const auto& p) { return n + p.size(); });
   const std::size_t fewest = std::max(kFewestObjectPoints, masked || drawn ? 0 : static_cast<std::size_t>(kSmallestObject * static_cast<double>(total)));
   for (std::vector<int>& points : pieces) {
-    if (is_debris(seen, points, fewest)) {
+    if (is_debris(seen, roughness, points, fewest)) {
       ++debris;
       continue;
     }
