@@ -144,6 +144,22 @@ TEST(BadInput, AnUpsideDownUpIsNoticed) {
   }
 }
 
+/// cx and cy of 0, as files have that left them out; and a middle that is a little off, as lenses have it.
+TEST(BadInput, AMiddleFarOffThePicturesIsSaid) {
+  Scene scene;
+  scene.boxes = {upright(0, 0.8, 0, {0.3, 0.2, 0.15}, 20)};
+  RgbdFrame frame = render(scene);
+  frame.camera.cx += 20.0;
+  Context context;
+  observe(frame, {}, context);
+  EXPECT_TRUE(context.take_warnings().empty());
+  frame.camera.cx = 0.0;
+  observe(frame, {}, context);
+  const std::vector<std::string> warnings = context.take_warnings();
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("cx = 0 and cy = 239.5"), std::string::npos) << warnings[0];
+}
+
 TEST(BadInput, NothingOnTheGroundIsNoObject) {
   Scene scene;
   EXPECT_TRUE(perceive(render(scene)).cuboids.empty());

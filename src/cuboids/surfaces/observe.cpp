@@ -175,13 +175,21 @@ void remark_on_camera(const RgbdFrame& frame, Context& context) {
   const double fx = frame.camera.fx, fy = frame.camera.fy;
   if (!frame.is_fused() && std::max(fx, fy) > kOblong * std::min(fx, fy))
     context.warn(fmt::format("camera: fx = {:.4g} and fy = {:.4g} make pixels oblong; if they are square, all sizes are wrong", fx, fy));
+  constexpr double kOffMiddle = 0.25;  // of the picture: where no camera has its axis
+  const auto is_off = [](double c, int size) { return std::abs(c - 0.5 * (size - 1)) > kOffMiddle * size; };
+  if (!frame.is_fused() && (is_off(frame.camera.cx, frame.camera.width) || is_off(frame.camera.cy, frame.camera.height)))
+    context.warn(fmt::format("camera: cx = {:.4g} and cy = {:.4g} are far from the middle of a picture of {} x {} pixels; unless it was cropped, everything is sheared", frame.camera.cx, frame.camera.cy,
+                             frame.camera.width, frame.camera.height));
 }
 
 void remark_on_given_supports(const Observation& seen, Context& context) {
-  for (const Support& support : seen.supports)
-    if (support.kind <= SupportKind::desk && std::find(seen.support_of_point.begin(), seen.support_of_point.end(), support.id) == seen.support_of_point.end())
-      context.warn(fmt::format("nothing in the picture lies on the {} that is given; its normal and offset are those of the camera's coordinates, in metres",
-                               kSupportKinds[static_cast<std::size_t>(support.kind)]));
+  constexpr double kHardly = 0.005;  // of the points
+  for (const Support& support : seen.supports) {
+    const auto on = std::count(seen.support_of_point.begin(), seen.support_of_point.end(), support.id);
+    if (support.kind > SupportKind::desk || static_cast<double>(on) > kHardly * static_cast<double>(seen.points.size())) continue;
+    context.warn(fmt::format("{} in the picture lies on the {} that is given; its normal and offset are those of the camera's coordinates, in metres", on > 0 ? "hardly anything" : "nothing",
+                             kSupportKinds[static_cast<std::size_t>(support.kind)]));
+  }
 }
 
 }  // namespace
