@@ -127,6 +127,26 @@ TEST(Waves, ARoomIsNeitherCutNorTurned) {
   EXPECT_GE(std::count_if(result.planes.begin(), result.planes.end(), [](const ArrangedPlane& plane) { return plane.frame == 0; }), 16);
 }
 
+/// A ground that undulates says nothing of boxes that are flat: their own pieces show no waves.
+TEST(Waves, OfTheGroundTurnNoBox) {
+  PointCloud cloud;
+  Random random(6);
+  add_wavy(cloud, {0, 0, 0}, {8, 0, 0}, {0, 6, 0}, 0.004, random);
+  const std::vector<double> yaws = {0.0, 2.0, -2.0, 4.0};  // deg
+  for (std::size_t k = 0; k < yaws.size(); ++k) {
+    PointCloud box = test::box_cloud({-0.3, -0.3, 0.3}, {0.6, 0.6, 0.6}, kSpacing, 0.002, 10 + k);
+    test::turn(box, Eigen::AngleAxisd(radians(yaws[k]), Vec3::UnitZ()).toRotationMatrix());
+    for (const Vec3& p : box.positions) cloud.positions.push_back(p + Vec3(1.0 + 2.0 * static_cast<double>(k), 3.0, 0));
+  }
+  std::vector<int> found(yaws.size(), 0);
+  for (const ArrangedPlane& plane : test::run(cloud, {}).result.planes) {
+    if (std::abs(plane.plane.normal.z()) > 0.1) continue;
+    const double turned = degrees(std::atan2(plane.plane.normal.y(), plane.plane.normal.x())), yaw = turned - 90.0 * std::round(turned / 90.0);
+    for (std::size_t k = 0; k < yaws.size(); ++k) found[k] += std::abs(yaw - yaws[k]) < 0.3;
+  }
+  EXPECT_EQ(found, (std::vector<int>{4, 4, 4, 4}));
+}
+
 /// Bends of 2° are cut, though waves of the same rms are not.
 TEST(Split, WavesAreNoBends) {
   const auto pieces = [](const PointCloud& cloud) {

@@ -32,7 +32,7 @@ constexpr std::size_t kRoughStep = 4;          // every so many points tell how 
 constexpr double kRoughest = 0.05;             // m; if they are no farther from it,
 constexpr double kLeastSlant = 0.3;            // cosine: that a ray meets it at, at the least,
 constexpr double kBelow = 0.16, kBelowNormal = 0.994, kMedian = 0.6745;  // of a normal distribution: that is below so many standard deviations; of half the absolute values
-constexpr double kMostRough = 0.01;            // m: what scatters more is no surface
+constexpr double kMostRough = 0.01;            // m: what is rougher is no surface
 constexpr double kOutside = 0.02;             // m beyond the outline of the ground, where something else carries
 
 /// Points of equal non-negative group that links connect.
@@ -99,7 +99,8 @@ std::vector<double> roughness_of(const Observation& seen) {
       variance += noise * noise / static_cast<double>(measured.size());
     }
     const double scatter = std::min(std::max(-quantile(std::move(heights), kBelow), 0.0) / kBelowNormal, median(std::move(off)) / kMedian);
-    roughness.push_back(scatter > kMostRough ? 0.0 : std::sqrt(std::max(scatter * scatter - variance, 0.0)));
+    const double rough = std::sqrt(std::max(scatter * scatter - variance, 0.0));
+    roughness.push_back(rough > kMostRough ? 0.0 : rough);
   }
   return roughness;
 }

@@ -86,7 +86,7 @@ std::vector<double> each(const std::vector<Patch>& patches, double Patch::* valu
 struct MeasuredNoise {
   double value = kKinect;
   double scatter = 0;  ///< m at 1 m, of flat patches, however large; 0 = not known
-  bool smooth = false; ///< it counts as far as `value` has it
+  bool smooth = false; ///< it is alike nearby, and `value` follows it
 };
 
 MeasuredNoise measure_noise(const RgbdFrame& frame) {

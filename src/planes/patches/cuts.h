@@ -11,7 +11,7 @@ namespace unseen::planes {
 /// What a region is cut into.
 struct Pieced {
   CellSets pieces;    ///< voxels; none if no cut is clearly better than one plane
-  bool bent = false;  ///< at shallow bends, as waves on a plane could also leave them
+  bool bent = false;  ///< at shallow bends, or into facets, as waves on a plane could also leave them
 };
 
 /// The pieces of a region; none if no cut is clearly better than one plane. The two sides of the straight cut that leaves the

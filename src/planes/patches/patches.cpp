@@ -112,7 +112,7 @@ Patches segment(const VoxelGrid& grid, const Cells& cells, const Space& space, d
   find_neighbours(grid, cells, space, angle, result, context);
   if (space.is_2d()) return result;
   mark_bowed(grid, context, result);
-  result.waves = waves_of(grid, result, context);
+  result.waves = measure_waves(grid, result, context);
   for (Patch& patch : result.patches) add_waves(result.waves, patch);
   return result;
 }

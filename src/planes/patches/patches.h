@@ -23,13 +23,14 @@ struct Patch {
   double doubt_v = 0;     ///< the same along v
   double systematic_u = 0;  ///< the part of doubt_u that no noise model contains
   double systematic_v = 0;  ///< the same along v
+  double waves = 1.0;       ///< the share of the scene's waves (variance) that it may have, as its own smaller pieces tell
   bool bowed = false;       ///< a strip of a curved surface: which way it faces means nothing
 };
 
 /// How far noise that is correlated over more than a small surface turns it (see waves.cpp).
 struct Waves {
-  double finest = 0;               ///< m, the width of surfaces that `dependence` begins with; each following ones are twice as wide
-  std::vector<double> dependence;  ///< one over how many of the points of such a surface are independent
+  double finest = 0;           ///< m, the width of surfaces that `excess` begins with; each following ones are twice as wide
+  std::vector<double> excess;  ///< the squared tilt of such a surface, over (rms / spread)² of its own
 
   /// Of the tilt (rad²) of a surface along an axis, from its rms and its spread along and across that axis (m).
   double variance(double rms, double spread, double across) const;
@@ -62,8 +63,8 @@ Patch make_patch(const VoxelGrid& grid, const Space& space, std::vector<int> cel
 /// The variance (rad²) of a fit's tilt along one of its axes with at least as much as independent points leave, `spread` (m) along it.
 double tilt_noise(const Moments& moments, const PlaneFit& fit, double variance, double spread);
 
-/// The waves that large patches show: how far square windows of them are turned against the whole.
-Waves waves_of(const VoxelGrid& grid, const Patches& patches, const Context& context);
+/// The waves that patches show: how far square windows of them are turned against the whole; and each patch's share of them.
+Waves measure_waves(const VoxelGrid& grid, Patches& patches, const Context& context);
 
 /// Makes a patch's tilts as uncertain as waves leave them.
 void add_waves(const Waves& waves, Patch& patch);

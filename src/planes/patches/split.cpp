@@ -32,7 +32,7 @@ struct Part {
   double rms() const { return std::sqrt(error / count); }
 };
 
-/// The variance (m²) of points about the planes of small neighbourhoods.
+/// The variance (m²) of points about the planes of small neighbourhoods; infinite where points are too sparse for these.
 double local_variance(const VoxelGrid& grid, const std::vector<int>& cells) {
   double error = 0, count = 0;
   for (const Moments& m : sums_of_cubes(grid, cells, kLocalBits)) {
@@ -96,7 +96,7 @@ CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regio
     }
     begin = end;
   }
-  mend_waves(parts, std::numeric_limits<double>::infinity());
+  mend_waves(parts, std::numeric_limits<double>::infinity());  // as far as it may go: what is whole then tells how wavy the scan is
   mend_waves(parts, kWavy * typical_rms(parts));
   std::vector<int> within(parts.size());  // the outermost whole one
   CellSets result;

@@ -75,6 +75,7 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
       if (!cells[j].empty()) {
         patches[j] = make_patch(grid, space, std::move(cells[j]), known.least_noise, surface);
         patches[j].bowed = known.patches[j].bowed;
+        patches[j].waves = known.patches[j].waves;
         add_waves(known.waves, patches[j]);
       }
   });
@@ -114,8 +115,10 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
       }
       std::sort(all.begin(), all.end());
       const bool bowed = support.bowed;
+      const double share = support.waves;
       support = make_patch(grid, space, std::move(all), known.least_noise, surface);
       support.bowed = bowed;
+      support.waves = share;
       add_waves(known.waves, support);
     }
   });
