@@ -108,5 +108,37 @@ TEST(Fuse, PartsThatOverlapLengthwiseAreOne) {
   EXPECT_EQ(after(0.15).size(), 2u);
 }
 
+/// Things over a table's front edge divide what is seen of its top, and seem to end where the top does.
+TEST(Fuse, ATableTopBetweenThingsOverItsEdgeIsOne) {
+  for (const double yaw : {-15.0, 10.0}) {
+    Scene scene;
+    scene.height = 1.3;
+    scene.pitch = radians(22.0);
+    const Vec3 about(0, 1.5, 0);
+    const auto put = [&](double x, double y, double z, const Vec3& size, double turn) {
+      OrientedBox box = upright(x, y, z, size, turn);
+      box.axes = Eigen::AngleAxisd(radians(yaw), Vec3::UnitZ()).toRotationMatrix() * box.axes;
+      box.center = about + Eigen::AngleAxisd(radians(yaw), Vec3::UnitZ()) * (box.center - about);
+      scene.boxes.push_back(box);
+    };
+    put(0, 1.9, 0.72, {1.4, 0.8, 0.03}, 0);
+    put(-0.6, 1.9, 0, {0.03, 0.7, 0.72}, 0);
+    put(0.6, 1.9, 0, {0.03, 0.7, 0.72}, 0);
+    put(-0.45, 1.54, 0.75, {0.2, 0.2, 0.12}, 4);
+    put(0.0, 1.55, 0.75, {0.24, 0.22, 0.16}, -5);
+    put(0.42, 1.53, 0.75, {0.2, 0.18, 0.13}, 3);
+    put(0.0, 1.95, 0.75, {0.3, 0.2, 0.15}, 17);
+    Context context;
+    const Completion result = complete_cuboids(render(scene), {}, context);
+    EXPECT_EQ(result.cuboids.size(), scene.boxes.size()) << yaw;
+    for (const OrientedBox& box : scene.boxes) {
+      double nearest = 1.0;
+      for (const Cuboid& cuboid : result.cuboids)
+        if ((cuboid.box.center - box.center).norm() < 0.05) nearest = std::min(nearest, (cuboid.box.half_size - box.half_size).cwiseAbs().maxCoeff());
+      EXPECT_LT(nearest, 0.02) << yaw << ": " << box.center.transpose();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test

@@ -242,5 +242,29 @@ TEST(Fuse, AllowsForTheTurnOfEitherPiece) {
   }
 }
 
+TEST(Fuse, PatchesOfASlabAreIt) {
+  // Two patches of a table's top, one of which lies within the other though it is turned, or overlaps it and ends it; what stands there reaches into the top.
+  const OrientedBox top = box({0, 0, 0.735}, {1.0, 0.8, 0.03});
+  OrientedBox within = box({0.2, 0.1, 0.735}, {0.3, 0.2, 0.03});
+  within.axes = Eigen::AngleAxisd(radians(25.0), Vec3::UnitZ()).toRotationMatrix();
+  const OrientedBox beside = box({0.45, 0.2, 0.735}, {0.5, 0.4, 0.03}), above = box({0.6, -0.35, 0.82}, {0.1, 0.2, 0.2});
+  const auto fused = [](const std::vector<OrientedBox>& boxes) {
+    std::vector<Cuboid> cuboids;
+    for (const OrientedBox& b : boxes) cuboids.push_back(cuboid(b));
+    std::vector<double> tolerance(cuboids.size(), 0.006);
+    fuse_pieces(view_of(1.0f), cuboids, tolerance);
+    return cuboids;
+  };
+  EXPECT_EQ(fused({top, within}).size(), 1u);
+  const std::vector<Cuboid> ended = fused({top, beside, above});
+  ASSERT_EQ(ended.size(), 2u);
+  EXPECT_NEAR(2.0 * ended[0].initial.half_size.x(), 1.2, 1e-9);
+  OrientedBox lower = within, deeper = above;
+  lower.center.z() -= 0.012;
+  deeper.center.z() -= 0.05;
+  EXPECT_EQ(fused({top, lower}).size(), 2u);           // on another level
+  EXPECT_EQ(fused({top, beside, deeper}).size(), 3u);  // something stands through it
+}
+
 }  // namespace
 }  // namespace unseen::cuboids

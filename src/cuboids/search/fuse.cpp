@@ -9,6 +9,7 @@
 #include "cuboids/objects/tints.h"
 #include "cuboids/search/complete.h"
 #include "cuboids/search/hypotheses.h"
+#include "cuboids/search/slab_patch.h"
 
 namespace unseen::cuboids {
 namespace {
@@ -19,16 +20,9 @@ constexpr double kKnownObject = 0.4;  // share that may be free where a label sa
 const double kLeansCosine = std::cos(radians(5.0));
 constexpr double kLeansInto = 0.25;  // share of what the whole adds to its parts, in what it leans on
 constexpr double kOverlap = 0.3;  // of the shorter part's length: parts of one box may each reach into the other
+constexpr double kSlabOff = 0.03;  // of a slab's length: that the end of a patch may be off, which is turned by as little as a degree
 constexpr double kSpacings = 3.0;  // between pixels, that an edge may be off
 constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
-
-struct Span {
-  double low, high;
-};
-Span span_along(const OrientedBox& box, const Vec3& axis) {
-  const double middle = axis.dot(box.center), half = (box.axes.transpose() * axis).cwiseAbs().dot(box.half_size);
-  return {middle - half, middle + half};
-}
 
 OrientedBox box_of(const Mat3& axes, const std::array<Span, 3>& spans) {
   OrientedBox box;
@@ -71,13 +65,29 @@ bool is_groove(const DepthView& view, const OrientedBox& gap, int apart) {
   return std::any_of(shares.begin(), shares.end(), [](double share) { return share > 0.5; });
 }
 
+/// Of two boxes in one place the one that holds the other, if this ends in two of its planes.
+std::optional<OrientedBox> around_both(const OrientedBox& a, const OrientedBox& b, const std::array<Span, 3>& of_a, const std::array<Span, 3>& of_b,
+                                       double tolerance) {
+  const bool first = a.volume() >= b.volume();
+  const auto &outer = first ? of_a : of_b, &inner = first ? of_b : of_a;
+  int flush = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double low = inner[k].low - outer[k].low, high = outer[k].high - inner[k].high;
+    if (std::min(low, high) < -tolerance) return std::nullopt;
+    flush += (std::abs(low) <= tolerance) + (std::abs(high) <= tolerance);
+  }
+  return flush >= 2 ? std::optional(first ? a : b) : std::nullopt;
+}
+
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
-/// are apart along the third or overlap by little of the shorter, and what the whole adds to them is hidden.
+/// are apart along the third or overlap by little of the shorter (by any of a slab), and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
   if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack && a.level != b.level)) return std::nullopt;
   if (!a.label.empty()) return joined_object(view, a, b, tolerance);
   if (a.tint && b.tint && are_other_tints(*a.tint, *b.tint)) return std::nullopt;
   if (a.visible_points + b.visible_points == 0) return std::nullopt;  // nothing was seen of either
+  if (is_patch_of(a.initial, b.initial, tolerance)) return b.initial;
+  if (is_patch_of(b.initial, a.initial, tolerance)) return a.initial;
   const auto axes_b = aligned_axes(a.initial, b.initial);
   if (!axes_b) return std::nullopt;
   const double weight = static_cast<double>(a.visible_points) / static_cast<double>(a.visible_points + b.visible_points);
@@ -97,12 +107,20 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
   int apart = 0;
   for (int k = 1; k < 3; ++k)
     if (share(k) < share(apart)) apart = k;
-  if (share(apart) > kOverlap) return std::nullopt;
+  if (const auto larger = around_both(a.initial, b.initial, of_a, of_b, tolerance)) return larger;
+  const bool one_slab = are_one_slab(a.initial, b.initial, tolerance);
+  if (share(apart) > kOverlap && !one_slab) return std::nullopt;
   for (int k = 0; k < 3; ++k) {
     if (k == apart) continue;
     if (share(k) == 0.0) return std::nullopt;
     // One end of both lies in one plane; where the other one of the shorter part ends, something hides it.
-    if (std::min(std::abs(of_a[k].low - of_b[k].low), std::abs(of_a[k].high - of_b[k].high)) > 2.0 * tolerance + std::min(turned, tolerance)) return std::nullopt;
+    const double low = std::abs(of_a[k].low - of_b[k].low), high = std::abs(of_a[k].high - of_b[k].high);
+    const double off = 2.0 * tolerance + std::min(turned, tolerance) + (one_slab ? kSlabOff * (spans[k].high - spans[k].low) : 0.0);
+    if (std::min(low, high) > off) return std::nullopt;
+    if (!one_slab) continue;
+    const Span& better = weight < 0.5 ? of_b[k] : of_a[k];
+    if (low <= off) spans[k].low = better.low;
+    if (high <= off) spans[k].high = better.high;
   }
   const OrientedBox whole = box_of(axes, spans);
   spans[apart] = {std::min(of_a[apart].high, of_b[apart].high), std::max(of_a[apart].low, of_b[apart].low)};
@@ -117,7 +135,7 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
 /// either puts the one into the other.
 bool is_in_the_way(const OrientedBox& other, const OrientedBox& whole, std::span<const OrientedBox> parts, double tolerance) {
   const auto meet = interface_of(solid_of(whole), solid_of(other), 0.0);
-  if (!meet || -meet->gap <= tolerance) return false;
+  if (!meet || -meet->gap <= tolerance || stands_too_low(other, whole, -meet->gap) || is_patch_of(other, whole, tolerance)) return false;
   int thin = 0;
   whole.half_size.minCoeff(&thin);
   const bool leans = (other.axes.transpose() * whole.axes.col(thin)).cwiseAbs().maxCoeff() < kLeansCosine;
