@@ -43,7 +43,8 @@ Key key_of(const Candidate& c, const Candidates& candidates) {
   return {c.frame, -1};
 }
 
-/// Longest first; drops those whose points longer ones have.
+/// Longest first; drops those whose points longer ones have, and of others the points that are of a longer one: what pushed a body may fly on by chance
+/// where this would have.
 std::vector<Arc> best_of(std::vector<Arc> arcs, const Candidates& candidates) {
   std::stable_sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) {
     return a.points.size() != b.points.size() ? a.points.size() > b.points.size() : a.noise < b.noise;
@@ -55,6 +56,13 @@ std::vector<Arc> best_of(std::vector<Arc> arcs, const Candidates& candidates) {
     for (const Candidate& c : arc.points) keys.push_back(key_of(c, candidates));
     const auto shared = std::count_if(keys.begin(), keys.end(), [&](const Key& k) { return used.contains(k); });
     if (static_cast<double>(shared) > kShared * static_cast<double>(keys.size())) continue;
+    if (shared > 0) {
+      std::vector<Candidate> own;
+      for (std::size_t i = 0; i < keys.size(); ++i)
+        if (!used.contains(keys[i])) own.push_back(arc.points[i]);
+      if (own.size() < kFewestOfArc) continue;
+      arc = arc_of(std::move(own));
+    }
     used.insert(keys.begin(), keys.end());
     kept.push_back(std::move(arc));
   }
@@ -62,6 +70,15 @@ std::vector<Arc> best_of(std::vector<Arc> arcs, const Candidates& candidates) {
 }
 
 }  // namespace
+
+Arc arc_of(std::vector<Candidate> points) {
+  Arc arc{std::move(points), {}, 0.0};
+  CurveSums sums(arc.begin());
+  for (const Candidate& c : arc.points) sums.add(c.u, c.pixel);
+  arc.curve = sums.fit();
+  arc.noise = std::sqrt(arc.curve.squares / std::max(1.0, 2.0 * static_cast<double>(arc.points.size()) - 6.0));
+  return arc;
+}
 
 double estimate_noise(const Candidates& candidates, double least) {
   std::vector<double> values;

@@ -17,6 +17,10 @@ struct Arc {
   double begin() const { return points.front().u; }
   double end() const { return points.back().u; }
 };
+constexpr std::size_t kFewestOfArc = 4;  ///< points
+
+/// The arc through points that are in order.
+Arc arc_of(std::vector<Candidate> points);
 
 /// Centroid noise in pixels, from third differences of the best continued sequences; at least `least`.
 double estimate_noise(const Candidates& candidates, double least);

@@ -15,7 +15,6 @@ constexpr double kGate = 3.5;           // σ
 constexpr int kMisses = 4;              // frames in a row
 constexpr double kOther = 1.0;          // σ² between looks
 constexpr double kFilled = 0.6;         // share of the seed's frames that must be on the curve
-constexpr std::size_t kFewestOfArc = 4;  // points
 constexpr double kMuchLess = 0.6;       // of the noise: jitter that neighbours are held to
 constexpr double kRough = 0.1;          // of the noise, added to the jitter
 constexpr std::size_t kNeighbours = 8, kFewestNeighbours = 5;
@@ -52,10 +51,9 @@ std::optional<Arc> ArcGrower::grow(int first, int step, const Candidate& a, cons
     drop_strays();
   }
   if (points_.size() < kFewestOfArc) return {};
-  Arc arc;
-  for (const auto& [frame, point] : points_) arc.points.push_back(point);
-  arc.curve = sums_.fit();
-  arc.noise = std::sqrt(arc.curve.squares / std::max(1.0, 2.0 * static_cast<double>(arc.points.size()) - 6.0));
+  std::vector<Candidate> points;
+  for (const auto& [frame, point] : points_) points.push_back(point);
+  Arc arc = arc_of(std::move(points));
   return arc.noise < 2.0 * noise_ ? std::optional(arc) : std::nullopt;
 }
 

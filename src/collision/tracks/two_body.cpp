@@ -24,15 +24,6 @@ constexpr double kOneFlight = 1.2;     // times the noise, about one parabola th
 constexpr double kOddSizeOfFlight = 0.03;      // share
 constexpr double kNearImpact = 0.75;   // frame times around the impact whose points are left out
 
-Arc arc_of(std::vector<Candidate> points) {
-  Arc arc{std::move(points), {}, 0.0};
-  CurveSums sums(arc.begin());
-  for (const Candidate& c : arc.points) sums.add(c.u, c.pixel);
-  arc.curve = sums.fit();
-  arc.noise = std::sqrt(arc.curve.squares / std::max(1.0, 2.0 * static_cast<double>(arc.points.size()) - 6.0));
-  return arc;
-}
-
 /// The arc with those points of another that are outside its time.
 Arc with(const Arc& arc, const Arc& other) {
   std::vector<Candidate> both = arc.points;
@@ -75,25 +66,31 @@ std::vector<Arc> continued(const std::vector<Arc>& arcs, const Collision& collis
   }
 }
 
-/// The points of a flight again, from all candidates on its side of the impact, nearest first.
-std::vector<Candidate> reassign(const Candidates& candidates, const Arc& arc, double u, bool before, double noise) {
-  const Candidate look = looks_of(arc);
-  std::vector<Candidate> points;
+/// How unlike a point of a flight a candidate is, in σ²; kGate² if it cannot be one.
+double cost_of(const Candidate& c, const Arc& arc, const Candidate& look, double u, bool before, double noise) {
+  constexpr double kNo = kGate * kGate;
+  if (!c.whole || c.shadow || (before ? c.u > u - kNearImpact : c.u < u + kNearImpact)) return kNo;
+  if (c.u < arc.begin() - 3.0 || c.u > arc.end() + 3.0) return kNo;
+  const double off = (c.pixel - arc.curve.at(c.u)).squaredNorm() / (2.0 * noise * noise * (1.0 + arc.curve.variance_at(c.u)));
+  return off < kNo / 2.0 ? std::min(off + unlikeness(c, look), kNo) : kNo;
+}
+
+/// The points of two flights on one side of the impact again, from all candidates there: the likeliest of each frame, none of both.
+std::array<std::vector<Candidate>, 2> reassign(const Candidates& candidates, const Arc& a, const Arc& b, double u, bool before, double noise) {
+  const Candidate look_a = looks_of(a), look_b = looks_of(b);
+  std::array<std::vector<Candidate>, 2> points;
   for (const auto& frame : candidates) {
-    const Candidate* best = nullptr;
-    double least = kGate * kGate;
-    for (const Candidate& c : frame) {
-      if (!c.whole || c.shadow || (before ? c.u > u - kNearImpact : c.u < u + kNearImpact)) continue;
-      if (c.u < arc.begin() - 3.0 || c.u > arc.end() + 3.0) continue;
-      const double off = (c.pixel - arc.curve.at(c.u)).squaredNorm() / (2.0 * noise * noise * (1.0 + arc.curve.variance_at(c.u)));
-      if (off < kGate * kGate / 2.0 && off + unlikeness(c, look) < least) {
-        least = off + unlikeness(c, look);
-        best = &c;
-      }
-    }
-    if (best) points.push_back(*best);
+    std::vector<double> of_a(1, kGate * kGate), of_b(1, kGate * kGate);  // the first: not seen
+    for (const Candidate& c : frame) of_a.push_back(cost_of(c, a, look_a, u, before, noise)), of_b.push_back(cost_of(c, b, look_b, u, before, noise));
+    std::array<std::size_t, 2> best = {0, 0};
+    for (std::size_t i = 0; i < of_a.size(); ++i)
+      for (std::size_t j = 0; j < of_b.size(); ++j)
+        if ((i != j || i == 0) && of_a[i] + of_b[j] < of_a[best[0]] + of_b[best[1]]) best = {i, j};
+    for (std::size_t k = 0; k < 2; ++k)
+      if (best[k] > 0) points[k].push_back(frame[best[k] - 1]);
   }
-  return without_odd_sizes(points.size() >= 3 ? points : arc.points, kOddSizeOfFlight);
+  for (std::size_t k = 0; k < 2; ++k) points[k] = without_odd_sizes(points[k].size() >= 3 ? points[k] : (k == 0 ? a : b).points, kOddSizeOfFlight);
+  return points;
 }
 
 Curve curve_of(const std::vector<Candidate>& points) {
@@ -153,7 +150,8 @@ Tracks with_collision(const Shot& shot, Candidates candidates, std::vector<Arc> 
   drop_merged(best, candidates, arcs, used);
   const std::vector<Arc> whole = continued(arcs, best, noise, used);
   std::vector<std::vector<Candidate>> flights;
-  for (std::size_t i = 0; i < 4; ++i) flights.push_back(reassign(candidates, whole[i], best.u, i < 2, noise));
+  for (const std::size_t i : {0, 2})
+    for (std::vector<Candidate>& flight : reassign(candidates, whole[i], whole[i + 1], best.u, i < 2, noise)) flights.push_back(std::move(flight));
   if (swapped(shot, joined(flights[0], flights[2]), joined(flights[1], flights[3]))) {
     std::swap(flights[0], flights[1]);
     std::swap(flights[2], flights[3]);
