@@ -9,6 +9,7 @@
 
 #include "collision/doubts/alternative.h"
 #include "collision/doubts/scale_doubt.h"
+#include "collision/doubts/shutter_doubt.h"
 #include "collision/doubts/vertical.h"
 #include "collision/shot_problem.h"
 #include "collision/solve/drag.h"
@@ -153,6 +154,7 @@ void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, c
     context.warn("no confident restitution: the flights tell too little of it");
   const double by_drag = look_for_drag(shot, options, impacts, result, context);
   check_down(shot, impacts, by_drag, result, context);
+  doubt_shutter(shot, impacts, result, context);
 }
 
 }  // namespace unseen::collision

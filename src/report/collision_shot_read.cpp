@@ -113,8 +113,9 @@ collision::ShotCamera read_shot_camera(const JsonField& shot) {
   };
   if (!shot.has("camera")) return assume();
   const JsonField json = shot["camera"];
-  json.allow_only({"fx", "fy", "cx", "cy", "distortion", "width", "height", "hfov_deg", "assumed"});
+  json.allow_only({"fx", "fy", "cx", "cy", "distortion", "width", "height", "hfov_deg", "assumed", "readout"});
   if (json.has("assumed")) c.assumed = json["assumed"].truth();
+  if (json.has("readout")) c.readout = json["readout"].number(-1.0, 1.0);
   if (json.has("width") != json.has("height")) json.fail("width and height, or neither");
   if (json.has("width")) {
     c.camera.width = json["width"].index(kMostPixels);

@@ -23,6 +23,7 @@ GivenCamera given_camera(const JsonField& json) {
   const collision::ShotCamera c = read_shot_camera(json);
   for (const double k : c.distortion)
     if (k != 0.0) json["camera"]["distortion"].fail("zeros: joints of a picture without distortion");
+  if (c.readout.value_or(0.0) != 0.0) json["camera"]["readout"].fail("0: a rolling shutter is not undone for people");
   return {c.camera, c.hfov, c.assumed};
 }
 

@@ -21,8 +21,8 @@ double interpolated(const std::map<double, double>& table, double x, double slop
 
 FrameClock::FrameClock(const Tracks& tracks, double fps) : fps_(fps) {
   for (const TrackPoint& p : tracks.points) {
-    time_of_[p.frame] = p.time;
-    frame_of_[p.time] = p.frame;
+    time_of_[p.frame] = p.time - p.rolled;
+    frame_of_[p.time - p.rolled] = p.frame;
   }
   if (time_of_.empty()) return;
   first_ = static_cast<int>(time_of_.begin()->first);

@@ -19,6 +19,7 @@ struct TrackPoint {
   Vec2 pixel = Vec2::Zero();      ///< without lens distortion
   double diameter = 0;            ///< projected, px; 0 = unknown
   int region = -1;                ///< index into Footage::regions[frame]; −1 = none
+  double rolled = 0;              ///< s of the time, that a rolling shutter read the row later than the middle one
 };
 
 /// A time span in which a body flies freely. Point indices [begin, end) into Tracks::points.
