@@ -160,6 +160,9 @@ TEST_F(ShotFile, WithoutAVideoItMustSayWhatAVideoWould) {
   expect_refused(good, "camera");
   good["camera"] = {{"hfov_deg", 60}, {"width", 640}, {"height", 480}};
   EXPECT_EQ(read(good).camera.camera.width, 640);
+  EXPECT_FALSE(read(good).camera.readout);
+  good["camera"]["readout"] = -0.015;
+  EXPECT_EQ(read(good).camera.readout, -0.015);
 }
 
 TEST_F(ShotFile, PlanarShotsMayHaveAScale) {
@@ -187,6 +190,8 @@ TEST_F(ShotFile, RefusesWhatCannotBe) {
   expect_refused("/camera", {{"fx", 900}}, "camera");
   expect_refused("/camera", {{"hfov_deg", 180}}, "camera.hfov_deg");
   expect_refused("/camera/width", 640, "camera");
+  expect_refused("/camera/readout", "15 ms", "camera.readout");
+  expect_refused("/camera/readout", 15, "camera.readout");
   expect_refused("/camera/distortion", {0.1}, "camera.distortion");
   expect_refused("/roi", {0, 0, 0, 5}, "roi");
   expect_refused("/roi", {-1, 0, 9, 5}, "roi[0]");

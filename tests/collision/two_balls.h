@@ -18,6 +18,7 @@ struct Meeting {
   Vec3 along = Vec3(1, 0.2, 0.1);  ///< of the impulse
   double noise = 0;                ///< px
   std::uint64_t seed = 1;
+  double readout = 0;              ///< s, of a rolling shutter
 };
 
 /// Two labelled balls in closed form.
@@ -38,9 +39,14 @@ inline Shot two_balls(const Meeting& meeting) {
     b.radius = kRadius;
     shot.bodies.push_back(b);
     for (int frame = meeting.from; frame <= kMeeting + meeting.after; ++frame) {
-      const double t = (frame - kMeeting - meeting.late) / meeting.fps;
       const auto o = static_cast<std::size_t>(body);
-      const Vec3 p = center + (body == 0 ? -kRadius : kRadius) * normal + t * (t < 0 ? before[o] : then[o]) + 0.5 * shot.gravity * t * t * *shot.down;
+      const auto place = [&](double t) {
+        return Vec3(center + (body == 0 ? -kRadius : kRadius) * normal + t * (t < 0 ? before[o] : then[o]) + 0.5 * shot.gravity * t * t * *shot.down);
+      };
+      double t = (frame - kMeeting - meeting.late) / meeting.fps;
+      const double middle = t;  // when the middle row is read
+      for (int round = 0; round < 8; ++round) t = middle + meeting.readout * ((shot.camera.camera.project(place(t)).y() + 0.5) / 720.0 - 0.5);
+      const Vec3 p = place(t);
       Sighting s;
       s.body = body;
       s.frame = frame;

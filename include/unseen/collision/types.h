@@ -35,6 +35,7 @@ struct ShotCamera {
   std::optional<double> hfov;    ///< horizontal field of view, rad; then the principal point is in the middle
   std::array<double, 5> distortion = {};  ///< k1, k2, p1, p2, k3 as OpenCV has them
   bool assumed = false;          ///< the intrinsics are a guess
+  std::optional<double> readout;  ///< s that a rolling shutter takes from the first row to the last, below 0 upward; 0 = a global one
 };
 
 /// A body's centre as seen in one frame.
