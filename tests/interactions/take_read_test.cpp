@@ -338,6 +338,9 @@ TEST(TakeRead, BadFieldsAreNamed) {
   Json bent = camera();
   bent["distortion"] = {0.1, 0, 0, 0};
   expect_error(with("camera", bent), "camera.distortion");
+  Json rolling = bent;
+  rolling["distortion"] = {0, 0, 0, 0}, rolling["readout"] = 0.02;
+  expect_error(with("camera", rolling), "camera.readout");
   io::write_grey_png(folder.path() / "small.png", 4, 3, std::vector<std::uint16_t>(12, 7));
   expect_error(with("masks", {{{"category", "couch"}, {"image", "small.png"}}}), "small.png: size: found 4 x 3 pixels, expected 1920 x 1080, as the take's picture has");
   expect_error(folder.path() / "none.json", "No such file");
