@@ -103,10 +103,10 @@ struct Evidence {
 
 /// Follows what moves, as a camera sees it.
 Tracks follow(const Shot& shot, const Footage& footage, const ShotCamera& camera, double fps, Context& context) {
-  if (!shot.video.empty()) return with_rolling_shutter(find_tracks(shot, camera, footage, context), camera);
+  if (!shot.video.empty()) return with_rolling_shutter(find_tracks(shot, camera, footage, context), camera, footage.turn);
   std::vector<Sighting> sightings = shot.observations;
   if (shot.frames) std::erase_if(sightings, [&](const Sighting& s) { return s.frame < (*shot.frames)[0] || s.frame > (*shot.frames)[1]; });
-  return with_rolling_shutter(find_tracks(shot, camera, sightings, fps, context), camera);
+  return with_rolling_shutter(find_tracks(shot, camera, sightings, fps, context), camera, 0);
 }
 
 Evidence observe(const Shot& shot, Context& context, Summary& summary) {
@@ -121,7 +121,7 @@ Evidence observe(const Shot& shot, Context& context, Summary& summary) {
   }
   const Stage stage(context, summary, "tracks");
   evidence.camera = complete_camera(shot, evidence.footage.width, evidence.footage.height);
-  check_readout(shot, evidence.fps);
+  check_readout(shot, evidence.footage, evidence.fps);
   evidence.tracks = follow(shot, evidence.footage, evidence.camera, evidence.fps, context);
   return evidence;
 }

@@ -26,7 +26,7 @@ void add_points(const Tracks& tracks, int span_index, bool after, const ShotCame
   const double sigma = (solid.is_sphere() ? kSphereSize : kOtherSize) * std::sqrt(static_cast<double>(span.end - span.begin));
   for (std::size_t i = span.begin; i < span.end; ++i) {
     const TrackPoint& p = tracks.points[i];
-    PointObservation seen{span.body, after, p.frame, p.time, p.pixel, 0.0, sigma};
+    PointObservation seen{span.body, after, p.frame, p.time, p.pixel, 0.0, sigma, p.row};
     if (p.diameter > 0.0) seen.depth = camera.camera.fx * solid.mass.extent / p.diameter;
     problem.points.push_back(seen);
   }

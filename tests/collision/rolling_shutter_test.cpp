@@ -54,8 +54,16 @@ TEST(RollingShutter, TakesNoLongerThanAFrame) {
     shot.camera.readout = readout;
     EXPECT_THROW(solved(shot), InputError) << readout;
   }
-  EXPECT_DOUBLE_EQ(row_share(-0.5, 720), -0.5);
-  EXPECT_DOUBLE_EQ(row_share(719.5, 720), 0.5);
+}
+
+TEST(RollingShutter, ReadsTheSensorsRowsFromTheFirst) {
+  // A pixel in the sensor's first row, where it lies in a picture that was turned clockwise.
+  const Camera level{1000, 1000, 639.5, 359.5, 1280, 720}, upright{1000, 1000, 359.5, 639.5, 720, 1280};
+  EXPECT_DOUBLE_EQ(row_share({100.0, -0.5}, level, 0), -0.5);
+  EXPECT_DOUBLE_EQ(row_share({719.5, 100.0}, upright, 90), -0.5);
+  EXPECT_DOUBLE_EQ(row_share({1179.0, 719.5}, level, 180), -0.5);
+  EXPECT_DOUBLE_EQ(row_share({-0.5, 1179.0}, upright, 270), -0.5);
+  EXPECT_DOUBLE_EQ(row_share({100.0, 719.5}, level, 0), 0.5);
 }
 
 }  // namespace

@@ -266,5 +266,24 @@ TEST(Fuse, PatchesOfASlabAreIt) {
   EXPECT_EQ(fused({top, beside, deeper}).size(), 3u);  // something stands through it
 }
 
+TEST(Fuse, LeavesApartWhatIsNoPatchOfASlab) {
+  const auto count = [](std::vector<Cuboid> cuboids, double within) {
+    std::vector<double> tolerance(cuboids.size(), within);
+    fuse_pieces(view_of(1.0f), cuboids, tolerance);
+    return cuboids.size();
+  };
+  const Cuboid table = cuboid(box({0, 0, 0.735}, {1.2, 0.8, 0.03}));
+  EXPECT_EQ(count({table, cuboid(box({1.2, 0.03, 0.735}, {1.2, 0.8, 0.03}))}, 0.006), 2u);   // another table, 3 cm out of line
+  EXPECT_EQ(count({table, cuboid(box({1.2, 0, 0.735}, {1.2, 0.86, 0.03}))}, 0.006), 2u);     // a deeper one
+  EXPECT_EQ(count({table, cuboid(box({0.1, 0.1, 0.765}, {0.4, 0.3, 0.03}))}, 0.03), 2u);     // a board that lies on it
+  const OrientedBox left = box({-0.4, 0, 0.735}, {0.4, 0.3, 0.03}), right = box({0.4, 0, 0.735}, {0.4, 0.3, 0.03});
+  Cuboid book = cuboid(box({0, 0, 0.735}, {0.2, 0.3, 0.03}));
+  book.stack = 3, book.level = 2;
+  Cuboid one = cuboid(left), other = cuboid(right);
+  one.stack = other.stack = 3, one.level = other.level = 1;
+  EXPECT_EQ(count({one, book, other}, 0.006), 3u);                                           // known to be on another level
+  EXPECT_EQ(count({cuboid(left), cuboid(box({0, 0, 0.79}, {0.1, 0.2, 0.22})), cuboid(right)}, 0.006), 3u);  // something that reaches out below
+}
+
 }  // namespace
 }  // namespace unseen::cuboids

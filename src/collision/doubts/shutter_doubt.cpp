@@ -9,7 +9,6 @@
 
 #include "collision/doubts/alternative.h"
 #include "collision/doubts/restitution.h"
-#include "collision/tracks/rolling_shutter.h"
 
 namespace unseen::collision {
 namespace {
@@ -24,18 +23,21 @@ constexpr double kRefuted = 16.0;       // χ²
 void doubt_shutter(const Shot& shot, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   if (shot.camera.readout || !result.restitution) return;
   const double readout = std::min(kReadout, kMostOfFrame / result.fps);
-  std::vector<SolvedImpact> rolled = impacts;
+  std::vector<SolvedImpact> plain, rolled;
   double saved = 0.0;  // χ²
-  for (SolvedImpact& impact : rolled) {
-    Problem& problem = impact.solution.problem;
-    const double before = settle(problem, impact.solution.fit.state).cost;
-    for (PointObservation& p : problem.points) p.time += readout * row_share(p.pixel.y(), problem.camera.height);
-    impact.solution.fit = settle(problem, impact.solution.fit.state);
-    if (!impact.solution.fit.usable) return;
-    saved += 2.0 * (before - impact.solution.fit.cost);
+  for (const SolvedImpact& impact : impacts) {
+    if (!impact.check.fits) continue;
+    Problem& problem = plain.emplace_back(impact).solution.problem;
+    plain.back().solution.fit = settle(problem, impact.solution.fit.state);
+    rolled.push_back(plain.back());
+    for (PointObservation& p : rolled.back().solution.problem.points) p.time += readout * p.row;
+    rolled.back().solution.fit = settle(rolled.back().solution.problem, impact.solution.fit.state);
+    if (!plain.back().solution.fit.usable || !rolled.back().solution.fit.usable) return;
+    saved += 2.0 * (plain.back().solution.fit.cost - rolled.back().solution.fit.cost);
   }
-  const double c = std::clamp(pooled(restitutions_of(rolled)).value, 0.0, 1.0), reach = 0.5 * (result.restitution->high - result.restitution->low);
-  if (std::abs(c - result.restitution->value) < std::max(kMuch, kHalf * reach) || !(saved > -kRefuted)) return;
+  const double change = pooled(restitutions_of(rolled)).value - pooled(restitutions_of(plain)).value;
+  const double c = std::clamp(result.restitution->value + change, 0.0, 1.0), reach = 0.5 * (result.restitution->high - result.restitution->low);
+  if (std::abs(change) < std::max(kMuch, kHalf * reach) || !(saved > -kRefuted)) return;
   const double milliseconds = 1e3 * readout;
   context.warn(fmt::format("{}: camera: if its shutter rolls, as phones' do, restitution is another, {:.3f} where it takes {:.0f} ms from the first row to the last: give "
                            "\"readout\" (s), or 0", shot.name, c, milliseconds));

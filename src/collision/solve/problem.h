@@ -26,6 +26,7 @@ struct PointObservation {
   Vec2 pixel = Vec2::Zero();
   double depth = 0;        ///< m, from the projected size; 0 = unknown
   double depth_sigma = 0;  ///< share of the depth; the common error of a flight's sizes is spread over its frames
+  double row = 0;          ///< share of a rolling shutter's readout, −½ to ½, after which its row was read
 };
 
 /// How a body's distance changes along a flight, by its projected sizes.

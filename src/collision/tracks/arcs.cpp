@@ -46,9 +46,8 @@ Key key_of(const Candidate& c, const Candidates& candidates) {
 /// Longest first; drops those whose points longer ones have, and of others the points that are of a longer one: what pushed a body may fly on by chance
 /// where this would have.
 std::vector<Arc> best_of(std::vector<Arc> arcs, const Candidates& candidates) {
-  std::stable_sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) {
-    return a.points.size() != b.points.size() ? a.points.size() > b.points.size() : a.noise < b.noise;
-  });
+  const auto longer = [](const Arc& a, const Arc& b) { return a.points.size() != b.points.size() ? a.points.size() > b.points.size() : a.noise < b.noise; };
+  std::stable_sort(arcs.begin(), arcs.end(), longer);
   std::set<Key> used;
   std::vector<Arc> kept;
   for (Arc& arc : arcs) {
@@ -60,12 +59,12 @@ std::vector<Arc> best_of(std::vector<Arc> arcs, const Candidates& candidates) {
       std::vector<Candidate> own;
       for (std::size_t i = 0; i < keys.size(); ++i)
         if (!used.contains(keys[i])) own.push_back(arc.points[i]);
-      if (own.size() < kFewestOfArc) continue;
-      arc = arc_of(std::move(own));
+      if (own.size() >= kFewestOfArc) arc = arc_of(std::move(own));
     }
     used.insert(keys.begin(), keys.end());
     kept.push_back(std::move(arc));
   }
+  std::stable_sort(kept.begin(), kept.end(), longer);
   return kept;
 }
 

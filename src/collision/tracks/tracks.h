@@ -19,7 +19,8 @@ struct TrackPoint {
   Vec2 pixel = Vec2::Zero();      ///< without lens distortion
   double diameter = 0;            ///< projected, px; 0 = unknown
   int region = -1;                ///< index into Footage::regions[frame]; −1 = none
-  double rolled = 0;              ///< s of the time, that a rolling shutter read the row later than the middle one
+  double row = 0;                 ///< share of a rolling shutter's readout, −½ to ½, after which its row was read
+  double rolled = 0;              ///< s of the time, for that
 };
 
 /// A time span in which a body flies freely. Point indices [begin, end) into Tracks::points.

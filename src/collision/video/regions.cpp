@@ -211,6 +211,7 @@ Footage find_regions(const Shot& shot, Context& context) {
   Footage footage;
   footage.width = survey.size.width;
   footage.height = survey.size.height;
+  footage.turn = clip.turn();
   footage.fps = shot.fps.value_or(clip.fps());
   footage.times = frame_times(survey.stamps, clip.fps(), shot.fps, shot.video, context);
   const Repeats found = find_repeats(survey.change, survey.brightness, survey.moved);

@@ -36,6 +36,7 @@ struct Region {
 /// A video's moving regions, with what was found out about the video itself.
 struct Footage {
   int width = 0, height = 0;
+  int turn = 0;  ///< degrees clockwise by which the file asked to be turned, and was
   double fps = 0;
   std::vector<double> times;  ///< of each decoded frame, s: frame / fps unless the spacing is known to be uneven
   std::vector<char> doubled;  ///< frames that repeat the one before

@@ -20,7 +20,7 @@ constexpr double kKnownObject = 0.4;  // share that may be free where a label sa
 const double kLeansCosine = std::cos(radians(5.0));
 constexpr double kLeansInto = 0.25;  // share of what the whole adds to its parts, in what it leans on
 constexpr double kOverlap = 0.3;  // of the shorter part's length: parts of one box may each reach into the other
-constexpr double kSlabOff = 0.03;  // of a slab's length: that the end of a patch may be off, which is turned by as little as a degree
+constexpr double kSlabOff = 0.03, kTurnedOff = 2.0;  // of a slab's length, and of what its turn moves: that the end of a patch may be off
 constexpr double kSpacings = 3.0;  // between pixels, that an edge may be off
 constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
 
@@ -65,10 +65,17 @@ bool is_groove(const DepthView& view, const OrientedBox& gap, int apart) {
   return std::any_of(shares.begin(), shares.end(), [](double share) { return share > 0.5; });
 }
 
+/// Whether neither labels, nor levels of a stack, nor colours part them.
+bool may_be_one(const Cuboid& a, const Cuboid& b) {
+  if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack && a.level != b.level)) return false;
+  return !a.label.empty() || !a.tint || !b.tint || !are_other_tints(*a.tint, *b.tint);
+}
+
 /// Of two boxes in one place the one that holds the other, if this ends in two of its planes.
 std::optional<OrientedBox> around_both(const OrientedBox& a, const OrientedBox& b, const std::array<Span, 3>& of_a, const std::array<Span, 3>& of_b,
                                        double tolerance) {
   const bool first = a.volume() >= b.volume();
+  tolerance = std::min(tolerance, (first ? b : a).half_size.minCoeff());  // what lies on a box is no part of it
   const auto &outer = first ? of_a : of_b, &inner = first ? of_b : of_a;
   int flush = 0;
   for (int k = 0; k < 3; ++k) {
@@ -82,9 +89,8 @@ std::optional<OrientedBox> around_both(const OrientedBox& a, const OrientedBox& 
 /// The box of which both are visible parts; none if they are not: along two axes they must have a plane in common, they
 /// are apart along the third or overlap by little of the shorter (by any of a slab), and what the whole adds to them is hidden.
 std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const Cuboid& b, double tolerance) {
-  if (a.label != b.label || (a.stack >= 0 && a.stack == b.stack && a.level != b.level)) return std::nullopt;
+  if (!may_be_one(a, b)) return std::nullopt;
   if (!a.label.empty()) return joined_object(view, a, b, tolerance);
-  if (a.tint && b.tint && are_other_tints(*a.tint, *b.tint)) return std::nullopt;
   if (a.visible_points + b.visible_points == 0) return std::nullopt;  // nothing was seen of either
   if (is_patch_of(a.initial, b.initial, tolerance)) return b.initial;
   if (is_patch_of(b.initial, a.initial, tolerance)) return a.initial;
@@ -96,7 +102,7 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
   axes.col(0) = (axes.col(0) - axes.col(0).dot(axes.col(2)) * axes.col(2)).normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
   // What the turn of either may be wrong by moves the other's ends.
-  const double turned = 0.5 * line_angle(a.initial.axes.col(0), axes_b->col(0)) * (a.initial.center - b.initial.center).norm();
+  const double turn = line_angle(a.initial.axes.col(0), axes_b->col(0)), turned = 0.5 * turn * (a.initial.center - b.initial.center).norm();
   std::array<Span, 3> of_a, of_b, spans;
   for (int k = 0; k < 3; ++k) {
     of_a[k] = span_along(a.initial, axes.col(k)), of_b[k] = span_along(b.initial, axes.col(k));
@@ -115,7 +121,8 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
     if (share(k) == 0.0) return std::nullopt;
     // One end of both lies in one plane; where the other one of the shorter part ends, something hides it.
     const double low = std::abs(of_a[k].low - of_b[k].low), high = std::abs(of_a[k].high - of_b[k].high);
-    const double off = 2.0 * tolerance + std::min(turned, tolerance) + (one_slab ? kSlabOff * (spans[k].high - spans[k].low) : 0.0);
+    const double length = spans[k].high - spans[k].low, of_turn = kTurnedOff * turn * std::max(of_a[apart].high - of_a[apart].low, of_b[apart].high - of_b[apart].low);
+    const double off = 2.0 * tolerance + std::min(turned, tolerance) + (one_slab ? std::min(kSlabOff * length, of_turn) : 0.0);
     if (std::min(low, high) > off) return std::nullopt;
     if (!one_slab) continue;
     const Span& better = weight < 0.5 ? of_b[k] : of_a[k];
@@ -135,7 +142,7 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
 /// either puts the one into the other.
 bool is_in_the_way(const OrientedBox& other, const OrientedBox& whole, std::span<const OrientedBox> parts, double tolerance) {
   const auto meet = interface_of(solid_of(whole), solid_of(other), 0.0);
-  if (!meet || -meet->gap <= tolerance || stands_too_low(other, whole, -meet->gap) || is_patch_of(other, whole, tolerance)) return false;
+  if (!meet || -meet->gap <= tolerance || stands_too_low(other, whole, -meet->gap, tolerance)) return false;
   int thin = 0;
   whole.half_size.minCoeff(&thin);
   const bool leans = (other.axes.transpose() * whole.axes.col(thin)).cwiseAbs().maxCoeff() < kLeansCosine;
@@ -164,7 +171,9 @@ std::size_t fuse_pieces(const DepthView& view, std::vector<Cuboid>& cuboids, std
         if (!whole) continue;
         const std::array parts = {cuboids[i].initial, cuboids[j].initial};
         const bool blocked = std::any_of(cuboids.begin(), cuboids.end(), [&](const Cuboid& other) {
-          return &other != &cuboids[i] && &other != &cuboids[j] && is_in_the_way(other.initial, *whole, parts, within);
+          if (&other == &cuboids[i] || &other == &cuboids[j]) return false;
+          if (may_be_one(other, cuboids[i]) && may_be_one(other, cuboids[j]) && is_patch_of(other.initial, *whole, within)) return false;
+          return is_in_the_way(other.initial, *whole, parts, within);
         });
         if (blocked) continue;
         cuboids[i].initial = cuboids[i].box = *whole;

@@ -27,7 +27,8 @@ bool are_one_slab(const OrientedBox& a, const OrientedBox& b, double tolerance) 
   a.half_size.minCoeff(&thin);
   if (a.half_size[thin] > kThin * std::min(a.half_size[(thin + 1) % 3], a.half_size[(thin + 2) % 3])) return false;
   const Span of_a = span_along(a, a.axes.col(thin)), of_b = span_along(b, a.axes.col(thin));
-  return std::abs(of_a.low - of_b.low) <= tolerance && std::abs(of_a.high - of_b.high) <= tolerance;
+  const double within = std::min(tolerance, 0.5 * std::min(of_a.high - of_a.low, of_b.high - of_b.low));  // what lies on a board is no part of it
+  return std::abs(of_a.low - of_b.low) <= within && std::abs(of_a.high - of_b.high) <= within;
 }
 
 bool is_patch_of(const OrientedBox& patch, const OrientedBox& slab, double tolerance) {
@@ -36,9 +37,9 @@ bool is_patch_of(const OrientedBox& patch, const OrientedBox& slab, double toler
   return are_one_slab(slab, patch, tolerance) && share_inside({}, patch, around, 0.0) >= kWithin;
 }
 
-bool stands_too_low(const OrientedBox& box, const OrientedBox& below, double depth) {
-  const Span height = span_along(box, Vec3::UnitZ());
-  return std::abs(height.low + depth - span_along(below, Vec3::UnitZ()).high) < kEqualTops && depth < kTooLow * (height.high - height.low);
+bool stands_too_low(const OrientedBox& box, const OrientedBox& below, double depth, double tolerance) {
+  const Span height = span_along(box, Vec3::UnitZ()), under = span_along(below, Vec3::UnitZ());
+  return std::abs(height.low + depth - under.high) < kEqualTops && height.low > under.low - tolerance && depth < kTooLow * (height.high - height.low);
 }
 
 }  // namespace unseen::cuboids

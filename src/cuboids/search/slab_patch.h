@@ -19,6 +19,6 @@ bool are_one_slab(const OrientedBox& a, const OrientedBox& b, double tolerance);
 bool is_patch_of(const OrientedBox& patch, const OrientedBox& slab, double tolerance);
 
 /// Whether a box stands on another but for its bottom, which was put too low, by `depth` (m): what hangs over a table's edge seems to end where this does.
-bool stands_too_low(const OrientedBox& box, const OrientedBox& below, double depth);
+bool stands_too_low(const OrientedBox& box, const OrientedBox& below, double depth, double tolerance);
 
 }  // namespace unseen::cuboids
