@@ -18,6 +18,7 @@ namespace {
 constexpr int kSteps[] = {4, 2, 8, 1};  // frames between the candidates of a seed
 constexpr double kLargestBend = 0.35;   // of the seed's length: more is no flight between neighbouring frames
 constexpr double kShared = 0.35;        // of its points that an arc may share with longer ones
+constexpr double kMuchSmoother = 0.8;       // of its noise
 constexpr double kStep = 0.25;          // of the picture's span that something may move a frame
 
 constexpr double kWander = 0.025;       // diameters
@@ -43,12 +44,12 @@ Key key_of(const Candidate& c, const Candidates& candidates) {
   return {c.frame, -1};
 }
 
-/// Longest first; drops those whose points longer ones have, and of others the points that are of a longer one: what pushed a body may fly on by chance
-/// where this would have.
+/// Longest first; drops those whose points longer ones have, and ends others where only points of longer and smoother ones follow: what pushed a
+/// body may fly on by chance where this would have.
 std::vector<Arc> best_of(std::vector<Arc> arcs, const Candidates& candidates) {
   const auto longer = [](const Arc& a, const Arc& b) { return a.points.size() != b.points.size() ? a.points.size() > b.points.size() : a.noise < b.noise; };
   std::stable_sort(arcs.begin(), arcs.end(), longer);
-  std::set<Key> used;
+  std::map<Key, double> used;  // and how rough the arc is that has it
   std::vector<Arc> kept;
   for (Arc& arc : arcs) {
     std::vector<Key> keys;
@@ -56,12 +57,11 @@ std::vector<Arc> best_of(std::vector<Arc> arcs, const Candidates& candidates) {
     const auto shared = std::count_if(keys.begin(), keys.end(), [&](const Key& k) { return used.contains(k); });
     if (static_cast<double>(shared) > kShared * static_cast<double>(keys.size())) continue;
     if (shared > 0) {
-      std::vector<Candidate> own;
-      for (std::size_t i = 0; i < keys.size(); ++i)
-        if (!used.contains(keys[i])) own.push_back(arc.points[i]);
-      if (own.size() >= kFewestOfArc) arc = arc_of(std::move(own));
+      const auto is_own = [&](const Key& k) { return !used.contains(k) || used.at(k) > kMuchSmoother * arc.noise; };
+      const auto first = std::find_if(keys.begin(), keys.end(), is_own) - keys.begin(), last = keys.rend() - std::find_if(keys.rbegin(), keys.rend(), is_own);
+      if (last - first >= static_cast<std::ptrdiff_t>(kFewestOfArc)) arc = arc_of({arc.points.begin() + first, arc.points.begin() + last});
     }
-    used.insert(keys.begin(), keys.end());
+    for (const Key& k : keys) used.emplace(k, arc.noise);
     kept.push_back(std::move(arc));
   }
   std::stable_sort(kept.begin(), kept.end(), longer);
