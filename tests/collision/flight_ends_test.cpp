@@ -3,9 +3,13 @@
 // What lies beside a flight and is none of it: outlines of both bodies as one, and a body that is held.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "collision/pair_scene.h"
+#include "collision/tracks/arcs.h"
 #include "collision/tracks/chain.h"
 #include "collision/tracks/pair_links.h"
 #include "collision/tracks/tracks.h"
@@ -119,6 +123,57 @@ TEST(FlightEnds, AnOutlineBesideAnotherOrFarFromItIsOfOne) {
   Candidate told = candidates[45][0];
   told.region = -1;  // a sighting that somebody gives is of one body
   EXPECT_FALSE(is_both(told, small, candidates));
+}
+
+/// A ball that is lost soon, and something much like it that flies on as the ball would have by chance.
+Candidates led_on(int seen_first, std::uint64_t seed) {
+  constexpr int kLost = 40, kPasses = 44;
+  Random random(seed);
+  Candidates candidates(kFrames);
+  for (int k = seen_first; k < kFrames; ++k) {
+    const double t = k - kPasses;
+    const Vec2 ball(640.0 + 6.0 * t, 260.0 - 2.0 * t + 0.5 * kGravity * t * t), other = ball - Vec2(1.3, 0.75) * t;
+    if (k < kLost) candidates[k].push_back(outline(k, 0, ball, 40.0, {150, 90, 60}, random));
+    if (k >= kLost + 2) candidates[k].push_back(outline(k, 1, other, 42.0, {148, 92, 58}, random));
+  }
+  return candidates;
+}
+
+TEST(FlightEnds, WhatFliesOnWhereABallWouldHaveIsNotTheBall) {
+  for (const int seen_first : {20, 24, 28, 31})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Context context;
+      std::array<std::size_t, 2> longest = {0, 0};
+      for (const Arc& arc : find_arcs(led_on(seen_first, seed), 2.0, 0.5, context)) {
+        const int region = arc.points.front().region;
+        for (const Candidate& c : arc.points) EXPECT_EQ(c.region, region) << "seed " << seed << ", from " << seen_first << ", frame " << c.frame;
+        longest[region] = std::max(longest[region], arc.points.size());
+      }
+      EXPECT_GE(longest[0], 38u - seen_first) << "seed " << seed << ", from " << seen_first;
+      EXPECT_GE(longest[1], 46u) << "seed " << seed << ", from " << seen_first;
+    }
+}
+
+// After the impact one passes behind the other, which is where both would be then.
+TEST(FlightEnds, ARegionIsOfOneBody) {
+  const Mover behind = {kRedBall.place, kRedBall.before, {0.4, -2.0}, 42.0}, front = {kBlueBall.place, kBlueBall.before, {-1.4, -2.08}, 42.0};
+  const Vec3 color = {147, 54, 53};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    Candidates candidates(kFrames);
+    for (int k = 0; k < kFrames; ++k) {
+      candidates[k] = {outline(k, 0, front.at(k), front.diameter, color, random)};
+      if (k < kImpact || (behind.at(k) - front.at(k)).norm() > 20.0) candidates[k].push_back(outline(k, 1, behind.at(k), behind.diameter, color, random));
+    }
+    Context context;
+    const Tracks tracks = find_pair(pair_shot(0.055, 0.06), camera(), candidates, kFps, 0.5, context);
+    std::map<std::pair<int, int>, int> body_of;
+    for (const FlightSpan& span : tracks.spans)
+      for (std::size_t i = span.begin; i < span.end; ++i) {
+        const TrackPoint& p = tracks.points[i];
+        EXPECT_EQ(body_of.emplace(std::pair(p.frame, p.region), span.body).first->second, span.body) << "seed " << seed << ", frame " << p.frame;
+      }
+  }
 }
 
 Shot film_of_a_bounce() {
