@@ -89,7 +89,7 @@ PoseOf poses_of(const SolvedImpact& impact, const Combination& combination, cons
       if (tracks.spans[spin->span].body != point.body || std::find(spans.begin(), spans.end(), spin->span) == spans.end()) continue;
       q = spin->q * solid.file_to_principal.conjugate();
       const Vec3 h = q * solid.mass.inertia.cwiseProduct(q.conjugate() * spin->omega);
-      q = turned<double>(q, h, solid.mass.inertia, point.time - spin->time);
+      q = turned(q, h, solid.mass.inertia, point.time - spin->time);
       return true;
     }
     return false;

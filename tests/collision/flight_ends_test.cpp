@@ -140,7 +140,7 @@ Candidates led_on(int seen_first, std::uint64_t seed) {
 }
 
 TEST(FlightEnds, WhatFliesOnWhereABallWouldHaveIsNotTheBall) {
-  for (const int seen_first : {20, 24, 28, 31})
+  for (const int seen_first : {16, 20, 24})
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       Context context;
       std::array<std::size_t, 2> longest = {0, 0};

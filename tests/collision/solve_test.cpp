@@ -174,8 +174,8 @@ TEST(Rotation, FollowsTheSymmetricTop) {
   const Vec3 axis = q0 * Vec3::UnitZ();
   const double own = h.dot(axis) * (1.0 / inertia.z() - 1.0 / inertia.x());
   const Quat expected = Quat(Eigen::AngleAxisd(h.norm() / inertia.x() * t, h.normalized())) * q0 * Quat(Eigen::AngleAxisd(own * t, Vec3::UnitZ()));
-  EXPECT_LT(turned<double>(q0, h, inertia, t).angularDistance(expected), 2e-3);
-  EXPECT_LT(turned<double>(turned<double>(q0, h, inertia, t), h, inertia, -t).angularDistance(q0), 1e-3);
+  EXPECT_LT(turned(q0, h, inertia, t).angularDistance(expected), 2e-3);
+  EXPECT_LT(turned(turned(q0, h, inertia, t), h, inertia, -t).angularDistance(q0), 1e-3);
 }
 
 /// A box that tumbles, followed in steps of its own: Euler's equations of the body's angular velocity, and the rotation matrix with it.
@@ -217,8 +217,8 @@ TEST(Rotation, DerivativeAlongTheMomentumAgreesWithDifferences) {
   const std::vector<TurnedEnd> ends = turned_through(q, h, inertia, times, true);
   const Vec3 step(1e-5, -2e-5, 1.5e-5);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    EXPECT_LT(ends[i].q.angularDistance(turned<double>(q, h, inertia, times[i])), 1e-4);
-    const Vec3 moved = rotation_vector<double>(turned<double>(q, h + step, inertia, times[i]) * turned<double>(q, h, inertia, times[i]).conjugate());
+    EXPECT_LT(ends[i].q.angularDistance(turned(q, h, inertia, times[i])), 1e-4);
+    const Vec3 moved = rotation_vector<double>(turned(q, h + step, inertia, times[i]) * turned(q, h, inertia, times[i]).conjugate());
     EXPECT_LT((moved - ends[i].along_h * step).norm(), 1e-3 * moved.norm() + 1e-9);
   }
 }

@@ -190,7 +190,7 @@ TEST(Reconstruct, ABoxOnOneEndOfAnEdgeIsNotTurned) {
     s.frame = frame;
     s.pixel = shot.camera.camera.project(p + t * (t < 0 ? before : after) + 0.5 * 9.81 * t * t * down) + 0.15 * Vec2(random.normal(), random.normal());
     shot.observations.push_back(s);
-    if (frame % 4 == 0) shot.orientations.push_back({0, frame / fps, turned<double>(principal, h, solid.mass.inertia, t) * solid.file_to_principal});
+    if (frame % 4 == 0) shot.orientations.push_back({0, frame / fps, turned(principal, h, solid.mass.inertia, t) * solid.file_to_principal});
   }
   Context context;
   const Reconstruction r = reconstruct(shot, {}, context);

@@ -22,7 +22,7 @@ std::vector<Quat> SilhouetteFit::path(const Turning& turning) const {
   Quat q = turning.q;
   double time = turning.time;
   const auto go = [&](std::size_t i) {
-    q = turned<double>(q, turning.h, inertia, looks_[i].time - time);
+    q = turned(q, turning.h, inertia, looks_[i].time - time);
     time = looks_[i].time;
     all[i - begin_] = q;
   };

@@ -15,7 +15,7 @@ std::vector<Quat> orientations_of(const Turning& turning, const SpinBody& body, 
 
 Turning at_time(const Turning& turning, const SpinBody& body, double time) {
   Turning other = turning;
-  other.q = turned<double>(turning.q, turning.h, body.solid.mass.inertia, time - turning.time);
+  other.q = turned(turning.q, turning.h, body.solid.mass.inertia, time - turning.time);
   other.time = time;
   return other;
 }

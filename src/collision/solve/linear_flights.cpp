@@ -12,32 +12,51 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kRidge = 1e-4;  // per m/s: keeps a velocity that nothing was seen of small
+constexpr double kSettledFlight = 1e-8;  // of the unknowns
 constexpr double kHeld = 1e6;    // the square of such a weight, of a velocity that is none
 
-constexpr int kUnknownsOfFlights = LinearFlight::kUnknowns;
-using Row = Eigen::Matrix<double, 1, kUnknownsOfFlights>;  // P, V before, V after, delay
-using Column = Eigen::Matrix<double, kUnknownsOfFlights, 1>;
+constexpr int kDelayOfBoth = LinearFlight::kUnknowns - 1;
+using Column = Eigen::Matrix<double, LinearFlight::kUnknowns, 1>;  // P, V before, V after, delay
+
+/// The coefficients of an equation that are not 0.
+template <int N>
+struct Row {
+  std::array<int, N> at;
+  std::array<double, N> value;
+
+  double operator*(const Column& x) const {
+    double sum = 0.0;
+    for (int i = 0; i < N; ++i) sum += value[i] * x[at[i]];
+    return sum;
+  }
+};
 
 struct System {
-  Eigen::Matrix<double, kUnknownsOfFlights, kUnknownsOfFlights> normal = Eigen::Matrix<double, kUnknownsOfFlights, kUnknownsOfFlights>::Zero();
+  Eigen::Matrix<double, LinearFlight::kUnknowns, LinearFlight::kUnknowns> normal = decltype(normal)::Zero();
   Column right = Column::Zero();
-  void add(const Row& row, double value, double weight) {
-    normal += weight * row.transpose() * row;
-    right += weight * value * row.transpose();
+
+  template <int N>
+  void add(const Row<N>& row, double value, double weight) {
+    for (int i = 0; i < N; ++i) {
+      for (int k = 0; k < N; ++k) normal(row.at[i], row.at[k]) += weight * row.value[i] * row.value[k];
+      right[row.at[i]] += weight * value * row.value[i];
+    }
   }
 };
 
 /// ½ x², linear beyond 1.
 double huber(double x) { return std::abs(x) < 1.0 ? 0.5 * x * x : std::abs(x) - 0.5; }
 
-/// Coefficients of coordinate `axis` of the place at τ; a later impact moves both flights back by their velocities, which are those of `near`.
-Row coordinate(int axis, double tau, bool after, const Column& near) {
-  Row row = Row::Zero();
+/// Coordinate `axis` of the place at τ; a later impact moves both flights back by their velocities, which are those of `near`.
+Row<3> coordinate(int axis, double tau, bool after, const Column& near) {
   const int velocity = 3 + axis + (after ? 3 : 0);
-  row[axis] = 1.0;
-  row[velocity] = tau;
-  row[kUnknownsOfFlights - 1] = -near[velocity];
-  return row;
+  return {{axis, velocity, kDelayOfBoth}, {1.0, tau, -near[velocity]}};
+}
+
+/// What a pixel's coordinate says: (f · place − offset · z) / depth.
+Row<5> seen_row(const Row<3>& place, const Row<3>& z, double focal, double offset, double depth) {
+  const double a = focal / depth, b = -offset / depth;
+  return {{place.at[0], place.at[1], z.at[0], z.at[1], kDelayOfBoth}, {a * place.value[0], a * place.value[1], b * z.value[0], b * z.value[1], a * place.value[2] + b * z.value[2]}};
 }
 
 }  // namespace
@@ -55,16 +74,16 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
       if (point.body != body) continue;
       seen = true;
       const double tau = problem.flies(body, point.after) ? point.time - time : 0.0, half = 0.5 * tau * tau;
-      const Row z = coordinate(2, tau, point.after, solution);
+      const Row<3> z = coordinate(2, tau, point.after, solution);
       const double depth = round == 0 ? 1.0 : std::max(0.05, z * solution + half * g.z());
       const double focal[2] = {c.fx, c.fy}, seen_at[2] = {point.pixel.x() - c.cx, point.pixel.y() - c.cy};
-      Row rows[2];
+      std::array<Row<5>, 2> rows;
       double values[2], square = 0.0;
       for (int i = 0; i < 2; ++i) {
-        const Row place = coordinate(i, tau, point.after, solution);
+        const Row<3> place = coordinate(i, tau, point.after, solution);
         // first as it is seen; then Gauss–Newton about the place, since noise in the coefficients draws everything nearer
         const double offset = round < kAlgebraic ? seen_at[i] : focal[i] * (place * solution + half * g[i]) / depth;
-        rows[i] = (focal[i] * place - offset * z) / depth;
+        rows[i] = seen_row(place, z, focal[i], offset, depth);
         values[i] = seen_at[i] - offset - half * (focal[i] * g[i] - offset * g.z()) / depth;
         if (round > 0) square += std::pow(rows[i] * solution - values[i], 2);
       }
@@ -78,19 +97,24 @@ std::optional<LinearFlight> linear_flight(const Problem& problem, int body, doub
     for (const SizeTrend& trend : problem.trends) {
       if (trend.body != body || !problem.terms.size || round == 0) continue;
       const double flies = problem.flies(body, trend.after) ? 1.0 : 0.0, t[2] = {flies * (trend.begin - time), flies * (trend.end - time)}, ratio = std::exp(trend.change);
-      const Row first = coordinate(2, t[0], trend.after, solution), last = coordinate(2, t[1], trend.after, solution);
+      const Row<3> first = coordinate(2, t[0], trend.after, solution), last = coordinate(2, t[1], trend.after, solution);
+      Row<3> row = last;
+      for (int i = 0; i < 3; ++i) row.value[i] -= ratio * first.value[i];
       const double depth = std::max(0.05, last * solution + 0.5 * t[1] * t[1] * g.z()), spread = depth * trend.sigma;
-      system.add(last - ratio * first, -0.5 * g.z() * (t[1] * t[1] - ratio * t[0] * t[0]), 1.0 / (spread * spread));
+      system.add(row, -0.5 * g.z() * (t[1] * t[1] - ratio * t[0] * t[0]), 1.0 / (spread * spread));
     }
     for (int i = 3; i < 9; ++i) system.normal(i, i) += kRidge * kRidge;
     if (!problem.flies(body, false))
       for (const int i : {3, 4, 5}) system.normal(i, i) += kHeld;
     if (problem.planar)
       for (const int i : {5, 8}) system.normal(i, i) += kHeld;
-    const Eigen::LDLT<Eigen::Matrix<double, kUnknownsOfFlights - 1, kUnknownsOfFlights - 1>> solver(system.normal.topLeftCorner<kUnknownsOfFlights - 1, kUnknownsOfFlights - 1>());  // at the time given
+    const Eigen::LDLT<Eigen::Matrix<double, kDelayOfBoth, kDelayOfBoth>> solver(system.normal.topLeftCorner<kDelayOfBoth, kDelayOfBoth>());  // at the time given
     if (!seen || solver.info() != Eigen::Success) return std::nullopt;
-    solution.head<kUnknownsOfFlights - 1>() = solver.solve(system.right.head<kUnknownsOfFlights - 1>());
-    if (!solution.allFinite()) return std::nullopt;
+    const Eigen::Matrix<double, kDelayOfBoth, 1> next = solver.solve(system.right.head<kDelayOfBoth>());
+    if (!next.allFinite()) return std::nullopt;
+    const bool settled = round >= kAlgebraic && (next - solution.head<kDelayOfBoth>()).norm() < kSettledFlight * next.norm();
+    solution.head<kDelayOfBoth>() = next;
+    if (settled) break;
   }
   if (solution[2] < 0.01) return std::nullopt;
   return LinearFlight{solution.segment<3>(0), solution.segment<3>(3), solution.segment<3>(6), system.normal, system.right};

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -46,28 +45,9 @@ Vec3T<T> angular_velocity(const QuatT<T>& q, const Vec3T<T>& h, const Eigen::Vec
   return q * Vec3T<T>(inner.x() / inertia.x(), inner.y() / inertia.y(), inner.z() / inertia.z());
 }
 
-/// Where a torque-free body has turned to after `dt`: steps on the rotation group of fourth order (Munthe-Kaas, "High order Runge–Kutta
-/// methods on manifolds", 1999) of at most `kTurn` rad; exact for a sphere.
-template <class T>
-QuatT<T> turned(QuatT<T> q, const Vec3T<T>& h, const Eigen::Vector3d& inertia, const T& dt) {
-  constexpr double kTurn = 0.3;
-  constexpr int kMostSteps = 150;  // 45 rad: faster bodies are beyond what a video shows
-  if (inertia.maxCoeff() - inertia.minCoeff() <= 1e-12 * inertia.maxCoeff()) return rotation_by<T>(h * (dt / inertia.x())) * q;
-  double square = 0.0;
-  for (int i = 0; i < 3; ++i) square += value_of(h[i]) * value_of(h[i]);
-  const double angle = std::sqrt(square) / inertia.minCoeff() * std::abs(value_of(dt));
-  const int steps = std::clamp(static_cast<int>(std::ceil(angle / kTurn)), 1, kMostSteps);
-  const T step = dt / static_cast<double>(steps);
-  for (int i = 0; i < steps; ++i) {
-    const Vec3T<T> k1 = angular_velocity<T>(q, h, inertia) * step;
-    const Vec3T<T> k2 = angular_velocity<T>(rotation_by<T>(k1 * 0.5) * q, h, inertia) * step;
-    const Vec3T<T> k3 = angular_velocity<T>(rotation_by<T>(k2 * 0.5 - k1.cross(k2) * 0.125) * q, h, inertia) * step;
-    const Vec3T<T> k4 = angular_velocity<T>(rotation_by<T>(k3) * q, h, inertia) * step;
-    q = rotation_by<T>((k1 + 2.0 * k2 + 2.0 * k3 + k4 - k1.cross(k4) * 0.5) * (1.0 / 6.0)) * q;
-  }
-  q.normalize();
-  return q;
-}
+/// Where a torque-free body has turned to after `dt` (s): steps on the rotation group of fourth order (Munthe-Kaas, "High order Runge–Kutta
+/// methods on manifolds", 1999) of at most 0.3 rad; exact for a sphere.
+Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Eigen::Vector3d& h, const Eigen::Vector3d& inertia, double dt);
 
 /// Where a torque-free body has turned to, and how that turns (a rotation vector) with the momentum.
 struct TurnedEnd {

@@ -20,6 +20,7 @@ constexpr int kMostTurns = 3;      // between two orientations
 constexpr int kAxes = 32;          // about which a body may have turned once between them; about more of them, more often
 constexpr double kSameMomentum = 0.01;   // of both
 constexpr double kHopeless = 60.0;       // ½ χ² above the best
+constexpr double kSettledSpin = 1e-9;    // of χ², that the last round gained
 
 /// Matrix of the cross product with v.
 Mat3 crossing(const Vec3& v) {
@@ -134,9 +135,11 @@ SpinGuess refined(const std::vector<const OrientationObservation*>& seen, const 
     const bool better = r_next.squaredNorm() < r.squaredNorm();
     damping = better ? std::max(1e-9, damping * 0.1) : std::min(1e6, std::max(1e-3, damping * 10.0));
     if (!better) continue;
+    const bool settled = r.squaredNorm() - r_next.squaredNorm() < kSettledSpin * (1.0 + r.squaredNorm());
     guess = next;
     r = r_next;
     j = jacobian(guess);
+    if (settled) break;
   }
   guess.cost = 0.5 * r.squaredNorm();
   Eigen::MatrixXd normal = j.transpose() * j;
@@ -197,7 +200,7 @@ std::vector<SpinGuess> spin_guesses(const Problem& problem, int body, bool after
   std::vector<SpinGuess> guesses;
   for (const Vec3& h : momenta) {
     SpinGuess guess;
-    guess.q = turned<double>(q, h, inertia, seen[0]->time - seen[near]->time);
+    guess.q = turned(q, h, inertia, seen[0]->time - seen[near]->time);
     guess.h = h;
     guess.open = open;
     guess = refined(seen, inertia, problem.orientation_sigma, guess);

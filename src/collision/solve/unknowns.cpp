@@ -62,7 +62,7 @@ StateT<Wide> wide_values_of(const Problem& problem, const State& state) {
 Quat orientation_at(const Problem& problem, const State& state, int o, bool after, double time) {
   if (o == 1 && problem.fixed) return state.q[1];
   const StateT<double> s = values_of(problem, state);
-  return turned<double>(s.q[o], after ? s.h_after[o] : s.h[o], problem.solids[o].mass.inertia, time - state.time);
+  return turned(s.q[o], after ? s.h_after[o] : s.h[o], problem.solids[o].mass.inertia, time - state.time);
 }
 
 }  // namespace unseen::collision

@@ -160,7 +160,7 @@ Cast cast_of(const StagePlan& plan, Context& context) {
 StageState flown(const CastActor& actor, const StageState& from, double gravity, double time) {
   const double dt = time - from.time;
   const PointState<double> end = fly<double>({from.p, from.v}, Vec3(0, 0, -gravity), 0.0, dt);
-  return {time, end.p, end.v, from.h, turned<double>(from.q, from.h, actor.actor.inertia, dt)};
+  return {time, end.p, end.v, from.h, turned(from.q, from.h, actor.actor.inertia, dt)};
 }
 
 void place(Cast& cast, const StagePlan& plan, int collision, const Vec3& translate, double turn) {

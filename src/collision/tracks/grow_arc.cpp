@@ -47,12 +47,8 @@ std::optional<Arc> ArcGrower::grow(int first, int step, const Candidate& a, cons
   extend(first + 2 * step + 1, 1);
   extend(first - 1, -1);
   if (points_.size() > kSmoothest) {
-    const std::map<int, Candidate> before = points_;
     grow_again();
     drop_strays();
-    // What it was led on to may be a flight of its own.
-    if (points_.begin()->first > first + 2 * step) points_ = {before.begin(), before.lower_bound(points_.begin()->first)};
-    else if (points_.rbegin()->first < first) points_ = {before.upper_bound(points_.rbegin()->first), before.end()};
   }
   if (points_.size() < kFewestOfArc) return {};
   std::vector<Candidate> points;
