@@ -106,15 +106,48 @@ double touch_sigma(const Problem& problem) {
 
 }  // namespace
 
-EvaluatedState::EvaluatedState(const Problem& problem, const State& reference) : problem(problem), reference(reference), turned(problem.orientations.size()) {
+EvaluatedState::EvaluatedState(const Problem& problem, const State& reference)
+    : problem(problem), reference(reference), turned(problem.orientations.size()), places(problem.points.size()) {
+  const auto outwards = [](const auto& observations, int body, bool after, std::vector<SeenOutwards>& all) {
+    SeenOutwards side{body, after, {}};
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      if (observations[i].body == body && observations[i].after == after) side.seen.push_back(i);
+    const auto time = [&](std::size_t i) { return observations[i].time; };
+    std::stable_sort(side.seen.begin(), side.seen.end(), [&](std::size_t a, std::size_t b) { return after ? time(a) < time(b) : time(a) > time(b); });
+    if (!side.seen.empty()) all.push_back(std::move(side));
+  };
   for (const int body : {0, 1})
     for (const bool after : {false, true}) {
-      SeenTurning seen{body, after, {}};
-      for (std::size_t i = 0; i < problem.orientations.size() && problem.terms.orientation; ++i)
-        if (problem.orientations[i].body == body && problem.orientations[i].after == after) seen.orientations.push_back(i);
-      const auto time = [&](std::size_t i) { return problem.orientations[i].time; };
-      std::stable_sort(seen.orientations.begin(), seen.orientations.end(), [&](std::size_t a, std::size_t b) { return after ? time(a) < time(b) : time(a) > time(b); });
-      if (!seen.orientations.empty()) turnings_.push_back(std::move(seen));
+      outwards(problem.points, body, after, flights_);
+      if (problem.terms.orientation) outwards(problem.orientations, body, after, turnings_);
+    }
+}
+
+void EvaluatedState::fly(const SeenOutwards& flight, bool derivatives) {
+  const auto& [body, after, seen] = flight;
+  std::vector<double> times;
+  for (const std::size_t i : seen) times.push_back(problem.points[i].time);
+  if (!derivatives) {
+    std::array<double, kFlightParts> in;
+    const auto parts = flight_parts(state, body, after);
+    for (int i = 0; i < kFlightParts; ++i) in[i] = *parts[i];
+    const std::vector<Vec3> at = flown<double>(problem, body, after, times, in);
+    for (std::size_t k = 0; k < seen.size(); ++k) places[seen[k]].p = at[k];
+    return;
+  }
+  using Lean = ceres::Jet<double, kFlightParts>;
+  std::array<Lean, kFlightParts> in;
+  const auto parts = flight_parts(wide, body, after);
+  for (int i = 0; i < kFlightParts; ++i) in[i] = Lean(parts[i]->a, i);
+  const std::vector<Vec3T<Lean>> at = flown<Lean>(problem, body, after, times, in);
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lean& from = at[k][axis];
+      Wide& to = places[seen[k]].wide[axis];
+      places[seen[k]].p[axis] = to.a = from.a;
+      to.v.setZero();
+      for (int i = 0; i < kFlightParts; ++i)
+        if (from.v[i] != 0.0) to.v += from.v[i] * parts[i]->v;
     }
 }
 
@@ -122,17 +155,19 @@ void EvaluatedState::PrepareForEvaluation(bool jacobians, bool new_point) {
   if (!new_point && (!jacobians || has_derivatives)) return;
   state = unpack<double>(problem, reference, unknowns.data());
   has_derivatives = jacobians;
-  for (const SeenTurning& seen : turnings_) {
-    const auto o = static_cast<std::size_t>(seen.body);
+  for (const SeenOutwards& turning : turnings_) {
+    const auto o = static_cast<std::size_t>(turning.body);
     std::vector<double> times;
-    for (const std::size_t i : seen.orientations) times.push_back(problem.orientations[i].time - state.time);
-    const auto ends = turned_through(state.q[o], seen.after ? state.h_after[o] : state.h[o], problem.solids[o].mass.inertia, times, jacobians);
-    for (std::size_t k = 0; k < ends.size(); ++k) turned[seen.orientations[k]] = ends[k];
+    for (const std::size_t i : turning.seen) times.push_back(problem.orientations[i].time - state.time);
+    const auto ends = turned_through(state.q[o], turning.after ? state.h_after[o] : state.h[o], problem.solids[o].mass.inertia, times, jacobians);
+    for (std::size_t k = 0; k < ends.size(); ++k) turned[turning.seen[k]] = ends[k];
   }
-  if (!jacobians) return;
-  std::array<Wide, kUnknowns> u;
-  for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(unknowns[i], i);
-  wide = unpack<Wide>(problem, reference, u.data());
+  if (jacobians) {
+    std::array<Wide, kUnknowns> u;
+    for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(unknowns[i], i);
+    wide = unpack<Wide>(problem, reference, u.data());
+  }
+  for (const SeenOutwards& flight : flights_) fly(flight, jacobians);
 }
 
 std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, EvaluatedState& evaluation, ceres::Problem& ceres) {
@@ -141,12 +176,14 @@ std::vector<NamedBlock> add_residuals(const std::optional<Proximity>& touch, Eva
   const Base base{problem, reference};
   const Terms& terms = problem.terms;
   Adder adder(evaluation, ceres);
-  for (const PointObservation& seen : problem.points) {
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    const PointObservation& seen = problem.points[i];
+    const SeenPlace& place = evaluation.places[i];
     if (problem.noise_power == 2.0)
-      adder.add("points", PointTerm{base, seen}, new ceres::HuberLoss(kPointHuber));
+      adder.add("points", PointTerm{base, seen, place}, new ceres::HuberLoss(kPointHuber));
     else
-      for (const int axis : {0, 1}) adder.add("points", FlatPointTerm{base, seen, axis}, new SquareLoss);
-    if (terms.size && seen.depth > 0.0) adder.add("size", DepthTerm{base, seen}, new ceres::HuberLoss(1.0));
+      for (const int axis : {0, 1}) adder.add("points", FlatPointTerm{base, seen, place, axis}, new SquareLoss);
+    if (terms.size && seen.depth > 0.0) adder.add("size", DepthTerm{base, seen, place}, new ceres::HuberLoss(1.0));
   }
   if (terms.size)
     for (const SizeTrend& seen : problem.trends) adder.add("size trend", TrendTerm{base, seen}, new ceres::HuberLoss(1.0));

@@ -23,11 +23,11 @@ struct NamedBlock {
   ceres::ResidualBlockId id = nullptr;
 };
 
-/// What was seen of one body's turning on one side of the impact, from there outwards.
-struct SeenTurning {
+/// What was seen of one body on one side of the impact, from there outwards: points or orientations of the problem.
+struct SeenOutwards {
   int body = 0;
   bool after = false;
-  std::vector<std::size_t> orientations;  ///< of the problem
+  std::vector<std::size_t> seen;
 };
 
 /// The unknowns and the state at them, made once for all terms of an evaluation.
@@ -41,10 +41,13 @@ struct EvaluatedState : ceres::EvaluationCallback {
   StateT<double> state;
   StateT<Wide> wide;  ///< with derivatives, if they were asked for
   std::vector<TurnedEnd> turned;  ///< to where each orientation of the problem was seen
+  std::vector<SeenPlace> places;  ///< where each point of the problem was seen
   bool has_derivatives = false;
 
  private:
-  std::vector<SeenTurning> turnings_;
+  void fly(const SeenOutwards& flight, bool derivatives);
+
+  std::vector<SeenOutwards> flights_, turnings_;
 };
 
 /// Adds all terms of the problem to a Ceres problem that has `evaluation` as its callback. `touch` is where the shapes meet at the

@@ -15,24 +15,38 @@ struct Base {
   const State& reference;
 };
 
-/// Many terms of one kind: functions of few parts of the state, through which their derivatives go.
+/// Place and velocity at the impact, down, and the impact's time: what a place on a flight depends on.
 constexpr int kFlightParts = 10;
-
-/// A body's place at a time, from place and velocity at the impact, down, and the impact's time.
-template <class T>
-Vec3T<T> flown(const Problem& problem, int body, bool after, double time, const std::array<T, kFlightParts>& in) {
-  const PointState<T> start{Vec3T<T>(in[0], in[1], in[2]), Vec3T<T>(in[3], in[4], in[5])};
-  Vec3T<T> p = start.p;
-  if (problem.flies(body, after)) p = fly<T>(start, Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity), T(problem.drag[body]), T(time) - in[9]).p;
-  constexpr double kNearest = 0.01;  // m: what a step takes behind the camera is far off, and nothing worse
-  if (value_of(p.z()) < kNearest) p.z() = T(kNearest);
-  return p;
-}
 
 template <class T>
 std::array<const T*, kFlightParts> flight_parts(const StateT<T>& s, int body, bool after) {
   const Vec3T<T>&p = s.p[body], &v = after ? s.v_after[body] : s.v[body];
   return {&p.x(), &p.y(), &p.z(), &v.x(), &v.y(), &v.z(), &s.down.x(), &s.down.y(), &s.down.z(), &s.time};
+}
+
+/// A body's places at some times, each reached from the one before, so they had better lead away from the impact.
+template <class T>
+std::vector<Vec3T<T>> flown(const Problem& problem, int body, bool after, const std::vector<double>& times, const std::array<T, kFlightParts>& in) {
+  constexpr double kNearest = 0.01;  // m: what a step takes behind the camera is far off, and nothing worse
+  PointState<T> now{Vec3T<T>(in[0], in[1], in[2]), Vec3T<T>(in[3], in[4], in[5])};
+  const Vec3T<T> g = Vec3T<T>(in[6], in[7], in[8]) * T(problem.gravity);
+  T time = in[9];
+  std::vector<Vec3T<T>> places;
+  places.reserve(times.size());
+  for (const double next : times) {
+    if (problem.flies(body, after)) now = fly<T>(now, g, T(problem.drag[body]), T(next) - time);
+    time = T(next);
+    places.push_back(now.p);
+    if (value_of(now.p.z()) < kNearest) places.back().z() = T(kNearest);
+  }
+  return places;
+}
+
+/// The place as parts of a term.
+template <class T>
+std::array<const T*, 3> place_parts(const SeenPlace& place) {
+  if constexpr (std::is_same_v<T, double>) return {&place.p.x(), &place.p.y(), &place.p.z()};
+  else return {&place.wide.x(), &place.wide.y(), &place.wide.z()};
 }
 
 /// How far one coordinate of a centre that is seen is from that of the body's place `p`; px over noise.
@@ -44,42 +58,42 @@ T off_along(int axis, const Problem& problem, const PointObservation& seen, cons
 
 /// Reprojection of a centre, Eq. 5.22; px over noise.
 struct PointTerm : Base {
-  static constexpr int kParts = kFlightParts, kResiduals = 2;
+  static constexpr int kParts = 3, kResiduals = 2;
   const PointObservation& seen;
+  const SeenPlace& place;
   template <class T>
-  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  auto parts(const StateT<T>&) const { return place_parts<T>(place); }
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
-    const Vec3T<T> p = flown<T>(problem, seen.body, seen.after, seen.time, in);
-    for (const int axis : {0, 1}) r[axis] = off_along<T>(axis, problem, seen, p);
+    for (const int axis : {0, 1}) r[axis] = off_along<T>(axis, problem, seen, Vec3T<T>(in[0], in[1], in[2]));
   }
 };
 
 /// One coordinate of a centre with noise that is flat; its loss is the square of the square.
 struct FlatPointTerm : Base {
-  static constexpr int kParts = kFlightParts, kResiduals = 1;
+  static constexpr int kParts = 3, kResiduals = 1;
   const PointObservation& seen;
+  const SeenPlace& place;
   int axis;
   template <class T>
-  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  auto parts(const StateT<T>&) const { return place_parts<T>(place); }
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
-    const T off = off_along<T>(axis, problem, seen, flown<T>(problem, seen.body, seen.after, seen.time, in));
-    *r = flat_residual(off, problem.noise_power);
+    *r = flat_residual(off_along<T>(axis, problem, seen, Vec3T<T>(in[0], in[1], in[2])), problem.noise_power);
   }
 };
 
 /// Depth from the projected size, Eq. 5.23.
 struct DepthTerm : Base {
-  static constexpr int kParts = kFlightParts, kResiduals = 1;
+  static constexpr int kParts = 1, kResiduals = 1;
   const PointObservation& seen;
+  const SeenPlace& place;
   template <class T>
-  auto parts(const StateT<T>& s) const { return flight_parts(s, seen.body, seen.after); }
+  std::array<const T*, kParts> parts(const StateT<T>&) const { return {place_parts<T>(place)[2]}; }
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     using std::log;
-    const Vec3T<T> p = flown<T>(problem, seen.body, seen.after, seen.time, in);
-    r[0] = log(p.z() / seen.depth) / seen.depth_sigma;
+    r[0] = log(in[0] / seen.depth) / seen.depth_sigma;
   }
 };
 
@@ -92,7 +106,8 @@ struct TrendTerm : Base {
   template <class T>
   void of_parts(const std::array<T, kParts>& in, T* r, const StateT<double>&) const {
     using std::log;
-    r[0] = (log(flown<T>(problem, seen.body, seen.after, seen.end, in).z() / flown<T>(problem, seen.body, seen.after, seen.begin, in).z()) - seen.change) / seen.sigma;
+    const auto distance = [&](double time) { return flown<T>(problem, seen.body, seen.after, {time}, in)[0].z(); };
+    r[0] = (log(distance(seen.end) / distance(seen.begin)) - seen.change) / seen.sigma;
   }
 };
 

@@ -132,6 +132,12 @@ StateT<double> values_of(const Problem& problem, const State& state);
 /// A number with its derivatives along all unknowns.
 using Wide = ceres::Jet<double, kUnknowns>;
 
+/// A place, and with its derivatives.
+struct SeenPlace {
+  Vec3 p;
+  Vec3T<Wide> wide;
+};
+
 /// The same with derivatives.
 StateT<Wide> wide_values_of(const Problem& problem, const State& state);
 
