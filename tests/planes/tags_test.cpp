@@ -188,6 +188,66 @@ TEST(Tags, CeilingsNeedNoFloor) {
   EXPECT_EQ(found[1], "ceiling");
 }
 
+/// A room of 5 × 4 m with a floor, a ceiling and four walls; 12 cm stand between it and the next one.
+void add_room(Arrangement& all, double at, double floor, double height) {
+  const Vec3 x(5, 0, 0), y(0, 4, 0), z(0, 0, height), corner(at, 0, floor);
+  add(all, corner, x, y);
+  add(all, corner + z, x, y);
+  add(all, corner, x, z);
+  add(all, corner + y, x, z);
+  add(all, corner, y, z);
+  add(all, corner + x, y, z);
+}
+
+TEST(Tags, OfRoomsAtSeveralHeights) {
+  for (const auto& [floor, height] : {std::pair(0.0, 2.2), {0.6, 2.7}, {1.3, 2.7}, {-1.0, 2.5}}) {
+    Arrangement all;
+    add_room(all, 0, 0, 2.7);
+    add_room(all, 5.12, floor, height);
+    const std::vector<std::string> found = tags(all);
+    for (const std::size_t room : {0u, 6u}) {
+      EXPECT_EQ(found[room], "floor") << floor;
+      EXPECT_EQ(found[room + 1], "ceiling") << floor;
+      for (std::size_t i = 2; i < 6; ++i) EXPECT_EQ(found[room + i], "wall") << floor;
+    }
+  }
+}
+
+/// Rooms beside each other are one floor and one ceiling if they are level, and one of them is not quite.
+TEST(Tags, OfASmallRoomBesideALargeFloor) {
+  Arrangement all;
+  add(all, {-30, 0, 0}, Vec3(29.8, 0, 0), Vec3(0, 12, 0));
+  add(all, {-30, 0, 2.7}, Vec3(29.8, 0, 0), Vec3(0, 12, 0));
+  add_room(all, 0, 0.01, 2.7);
+  const std::vector<std::string> found = tags(all);
+  EXPECT_EQ(found[2], "floor");
+  EXPECT_EQ(found[3], "ceiling");
+}
+
+TEST(Tags, ABedInACornerIsNoFloor) {
+  Arrangement all;
+  add_room(all, 0, 0, 2.7);
+  all.planes[0].polygon = {{{2, 0, 0}, {5, 0, 0}, {5, 4, 0}, {0, 4, 0}, {0, 2.2, 0}, {2, 2.2, 0}}};
+  add(all, {0, 0, 0.6}, Vec3(2, 0, 0), Vec3(0, 2.2, 0));  // in a corner, and nothing seen below
+  add(all, {2, 0, 0}, Vec3(0, 2.2, 0), Vec3(0, 0, 0.6));
+  const std::vector<std::string> found = tags(all);
+  EXPECT_EQ(found[0], "floor");
+  EXPECT_EQ(found[6], "horizontal");
+}
+
+TEST(Tags, AFlatRoofSeenFromOutsideIsNoCeiling) {
+  Arrangement all;
+  add(all, {-20, -20, 0}, Vec3(50, 0, 0), Vec3(0, 50, 0));
+  all.planes[0].polygon.push_back({{0, 0, 0}, {0, 8, 0}, {10, 8, 0}, {10, 0, 0}});
+  add(all, {0, 0, 4}, Vec3(10, 0, 0), Vec3(0, 8, 0));
+  for (const double y : {0.0, 8.0}) add(all, {0, y, 0}, Vec3(10, 0, 0), Vec3(0, 0, 4));
+  for (const double x : {0.0, 10.0}) add(all, {x, 0, 0}, Vec3(0, 8, 0), Vec3(0, 0, 4));
+  add(all, {-20, 25, 0}, Vec3(50, 0, 0), Vec3(0, 0, 9));  // of a house behind
+  const std::vector<std::string> found = tags(all);
+  EXPECT_EQ(found[0], "floor");
+  EXPECT_EQ(found[1], "horizontal");
+}
+
 TEST(Tags, AScanThatIsTurnedIsSaidToBe) {
   EXPECT_EQ(warnings_of_up(Mat3::Identity()), 0u);
   EXPECT_EQ(warnings_of_up(Eigen::AngleAxisd(0.5, Vec3::UnitZ()).matrix()), 0u);

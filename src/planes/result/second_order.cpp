@@ -7,6 +7,7 @@
 
 #include "planes/result/describe.h"
 #include "planes/result/equal_steps.h"
+#include "planes/result/faced.h"
 #include "unseen/core/convex.h"
 
 namespace unseen::planes {
@@ -17,30 +18,9 @@ constexpr double kShortest = 1.0;         // of the scale: a length is larger
 constexpr double kAlikeByChance = 0.05;   // planes as alike that a direction may be expected to have by chance
 constexpr std::size_t kMostPerDirection = 400;
 
-/// Extent of a plane's outline along two axes of its plane.
-struct Extent {
-  double low_u, high_u, low_v, high_v;
-};
-
 std::vector<Vec3> corners_of(const ArrangedPlane& p) {
   if (p.segment) return {(*p.segment)[0], (*p.segment)[1]};
   return p.polygon.empty() ? std::vector<Vec3>{} : p.polygon.front();
-}
-
-Extent extent_of(const ArrangedPlane& p, const Vec3& u, const Vec3& v) {
-  constexpr double kInf = std::numeric_limits<double>::infinity();
-  Extent e{kInf, -kInf, kInf, -kInf};
-  for (const Vec3& c : corners_of(p)) {
-    e.low_u = std::min(e.low_u, u.dot(c));
-    e.high_u = std::max(e.high_u, u.dot(c));
-    e.low_v = std::min(e.low_v, v.dot(c));
-    e.high_v = std::max(e.high_v, v.dot(c));
-  }
-  return e;
-}
-
-bool overlap(const Extent& a, const Extent& b, bool two_dimensional) {
-  return a.low_u < b.high_u && b.low_u < a.high_u && (two_dimensional || (a.low_v < b.high_v && b.low_v < a.high_v));
 }
 
 /// Length of a segment, or the longer side of the least rectangle around an outline, along one of its edges.
@@ -111,7 +91,6 @@ void find_second_order(Arrangement& result, double rounding) {
     });
     const Vec3& n = result.directions[d].normal;
     const Vec3 u = flat ? Vec3(n.cross(Vec3::Unit(*flat)).normalized()) : any_orthogonal(n);
-    const Vec3 v = n.cross(u);
     std::vector<int> levels;  // one plane an offset, the lowest id
     for (std::size_t i = 0; i < planes.size();) {
       std::vector<int> group = {planes[i]};
@@ -123,15 +102,7 @@ void find_second_order(Arrangement& result, double rounding) {
     }
     find_equal_steps(levels, tolerance, result);
     find_equal_lengths(planes, kAlikeLengths * result.scale, result);
-    std::vector<Extent> extents;
-    for (const int p : planes) extents.push_back(extent_of(result.planes[p], u, v));
-    for (std::size_t i = 0; i < planes.size(); ++i)
-      for (std::size_t k = i + 1; k < planes.size(); ++k) {
-        const double distance = result.planes[planes[k]].plane.offset - result.planes[planes[i]].plane.offset;
-        if (distance < 1e-9 || !overlap(extents[i], extents[k], result.two_dimensional)) continue;
-        result.distances.push_back({std::min(planes[i], planes[k]), std::max(planes[i], planes[k]), distance});
-        break;  // the next one in line hides the others
-      }
+    find_distances(planes, u, n.cross(u), result);
   }
 }
 

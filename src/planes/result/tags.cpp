@@ -7,6 +7,7 @@
 
 #include "core/linear.h"
 #include "planes/result/describe.h"
+#include "planes/result/walled.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::planes {
@@ -14,11 +15,11 @@ namespace {
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 constexpr double kLevel = 1.5 * kPi / 180.0;  // floors fall a little, walls lean
-constexpr double kLarge = 0.2;    // of the largest level plane's area: less is a table, or a step
+constexpr double kLarge = 0.2;    // of the largest level plane's area: less is a table, or a step, unless there are walls around it
+constexpr double kWalled = 0.6;   // of what is around it that walls rise from, or hang from
 constexpr double kAtEnd = 0.15;   // of the scene's height, from its lowest or highest point
 constexpr double kSlab = 0.25;    // of the room's height: how thick what lies between two storeys is, at most
 constexpr double kOverlap = 0.3;  // of the smaller one, for one to lie above the other
-constexpr int kSamples = 16;      // along each side of it
 constexpr double kWall = 0.5;     // of the room's height
 constexpr double kRoomy = 0.04;   // of the largest level plane's width: where all is lower, there is no ceiling
 constexpr double kNarrow = 0.1;   // of the room's height: what is narrower in the mean is a post, or a seam
@@ -93,45 +94,20 @@ Bounds bounds_of(const ArrangedPlane& p, const Mat3& axes) {
   return e;
 }
 
-/// A level plane's outline and its holes, seen from above.
+/// A large level plane.
 struct Level {
   Bounds bounds;
   double area = 0;  ///< m²
-  std::vector<std::vector<Vec2>> rings;
-
-  bool contains(const Vec2& p) const {
-    bool inside = false;
-    for (const std::vector<Vec2>& ring : rings)
-      for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)
-        if ((ring[i].y() > p.y()) != (ring[k].y() > p.y()) && p.x() < ring[i].x() + (ring[k].x() - ring[i].x()) * (p.y() - ring[i].y()) / (ring[k].y() - ring[i].y()))
-          inside = !inside;
-    return inside;
-  }
+  Rings rings;      ///< seen from above
 };
-
-Level level_of(const ArrangedPlane& p, const Bounds& bounds, const Mat3& axes) {
-  Level level{bounds, p.area, {}};
-  for (const std::vector<Vec3>& ring : p.polygon) {
-    level.rings.emplace_back();
-    for (const Vec3& c : ring) level.rings.back().push_back((axes.transpose() * c).head<2>());
-  }
-  return level;
-}
 
 /// Whether enough of the smaller plane lies above or below the other one: ground around a pit lies beside the pit's floor.
 bool lie_above_each_other(const Level& a, const Level& b) {
   const Level &small = a.area < b.area ? a : b, &large = &small == &a ? b : a;
-  const Vec3 shared = a.bounds.high.cwiseMin(b.bounds.high) - a.bounds.low.cwiseMax(b.bounds.low);
-  if (!(shared.x() > 0 && shared.y() > 0)) return false;
-  int own = 0, common = 0;
-  for (int i = 0; i < kSamples * kSamples; ++i) {
-    const Vec2 share((i % kSamples + 0.5) / kSamples, (i / kSamples + 0.5) / kSamples);
-    const Vec2 at = small.bounds.low.head<2>() + share.cwiseProduct((small.bounds.high - small.bounds.low).head<2>());
-    if (!small.contains(at)) continue;
-    ++own;
-    common += large.contains(at);
-  }
-  return common > kOverlap * own;
+  if (!small.rings.box.intersects(large.rings.box)) return false;
+  const std::vector<Vec2> own = small.rings.samples();
+  const auto common = std::count_if(own.begin(), own.end(), [&](const Vec2& s) { return large.rings.contains(s); });
+  return static_cast<double>(common) > kOverlap * static_cast<double>(own.size());
 }
 
 /// How far it is to the next large level plane above and below; infinite without one.
@@ -150,11 +126,22 @@ Gaps gaps_at(const Level& level, const std::vector<Level>& levels) {
   return gaps;
 }
 
+/// Whether walls rise from a level plane to the next one above, or hang from it to the next below; to the scene's ends without one.
+struct Walled {
+  bool up = false, down = false;
+};
+
+Walled walled_at(const ArrangedPlane& p, const Gaps& gaps, double to_bottom, double to_top, const Vec3& up, const std::vector<Wall>& walls) {
+  const auto most = [&](double gap, double end, double sign) { return walled_share(p, sign * (std::isfinite(gap) ? gap : end), up, walls) > kWalled; };
+  return {most(gaps.above, to_top, 1.0), most(gaps.below, to_bottom, -1.0)};
+}
+
 /// Below a floor is nothing, or the ceiling of the storey beneath; above a ceiling nothing, or the next floor, and its own floor below, unless nothing
-/// level is seen there: ground beside a pit has neither.
-std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top, bool lowest) {
-  const bool floor = std::isinf(gaps.below) ? from_bottom < kAtEnd : gaps.below < kSlab * gaps.above && std::isfinite(gaps.above);
-  const bool ceiling = std::isinf(gaps.above) ? from_top < kAtEnd && (lowest || std::isfinite(gaps.below)) : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
+/// level is seen there: ground beside a pit has neither. Where they do not end the scene, walls tell floors and ceilings from stages and roofs.
+std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top, bool lowest, const Walled& walled) {
+  const bool floor = std::isinf(gaps.below) ? from_bottom < kAtEnd || walled.up : gaps.below < kSlab * gaps.above && std::isfinite(gaps.above);
+  const bool hangs = from_top < kAtEnd ? lowest || std::isfinite(gaps.below) : walled.down && std::isfinite(gaps.below);
+  const bool ceiling = std::isinf(gaps.above) ? hangs : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
   if (floor && !(ceiling && from_top < from_bottom)) return "floor";
   return ceiling ? "ceiling" : "horizontal";
 }
@@ -179,12 +166,24 @@ void tag_planes(Arrangement& result) {
     low = std::min(low, bounds[i].low.z());
     high = std::max(high, bounds[i].high.z());
   }
-  std::vector<std::size_t> large;
+  std::vector<std::size_t> large, others;
   std::vector<Level> levels;
+  std::vector<Wall> upright;
   for (std::size_t i = 0; i < result.planes.size(); ++i) {
-    if (line_angle(result.planes[i].plane.normal, up) >= kLevel || result.planes[i].area <= kLarge * largest) continue;
-    large.push_back(i);
-    levels.push_back(level_of(result.planes[i], bounds[i], axes));
+    const ArrangedPlane& p = result.planes[i];
+    const double angle = line_angle(p.plane.normal, up);
+    if (angle > kPi / 2 - kLevel) upright.push_back(wall_of(p, up));
+    if (angle < kLevel) (p.area > kLarge * largest ? large : others).push_back(i);
+  }
+  const auto add_level = [&](std::size_t i) { levels.push_back({bounds[i], result.planes[i].area, rings_of(result.planes[i], axes.col(0), axes.col(1))}); };
+  const auto walled = [&](std::size_t i, const Gaps& gaps) { return walled_at(result.planes[i], gaps, bounds[i].low.z() - low, high - bounds[i].high.z(), up, upright); };
+  for (const std::size_t i : large) add_level(i);
+  for (const std::size_t i : others) {
+    if (result.planes[i].area < kSliver * largest) continue;
+    add_level(i);
+    const Walled by = walled(i, gaps_at(levels.back(), levels));
+    if (by.up || by.down) large.push_back(i);
+    else levels.pop_back();
   }
 
   double lowest = kNowhere;
@@ -195,7 +194,7 @@ void tag_planes(Arrangement& result) {
     const Gaps gaps = gaps_at(levels[k], levels);
     const double span = std::max(high - low, 1e-300);
     const bool roomy = span > kRoomy * std::sqrt(largest);
-    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere, bounds[i].height() - lowest < kAtEnd * span);
+    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere, bounds[i].height() - lowest < kAtEnd * span, walled(i, gaps));
     if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
   }
   const double room = rooms.empty() ? high - low : median(std::move(rooms));
