@@ -206,6 +206,23 @@ TEST(ChooseScale, CoarseDepthIsNoStaircase) {
     }
 }
 
+// A building site: ground, floor and slab hold most of the points, and boards lie at any height between them.
+TEST(ChooseScale, FloorsAndBoardsAreNoLevelsOfCoarseDepth) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    PointCloud cloud;
+    Random random(seed);
+    for (const double height : {-0.5, 0.0, 3.2}) test::add_rectangle(cloud, {0, 0, height}, {14, 0, 0}, {0, 10, 0}, 0.12, 0.0015, random);
+    for (int i = 0; i < 16; ++i)
+      test::add_rectangle(cloud, {random.uniform(0, 12), random.uniform(0, 9), random.uniform(0.1, 3.1)}, {1.5, 0, 0}, {0, 0.3, 0}, 0.08, 0.0015, random);
+    test::turn(cloud, Eigen::AngleAxisd(0.3, Vec3::UnitZ()).toRotationMatrix());
+    Context context;
+    CloudSource source(cloud, "site");
+    const Arrangement found = find_planes(source, Options(), context);
+    EXPECT_LT(found.scale, 0.5) << seed;
+    for (const std::string& warning : found.summary.warnings) EXPECT_EQ(warning.find("levels"), std::string::npos) << warning;
+  }
+}
+
 /// A cloud whose source says that its depths come in steps.
 class Stepped final : public PointSource {
  public:

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "unseen/core/quantile.h"
+
 namespace unseen::planes {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr double kPeak = 4.0;                   // times as many points as on ot
 constexpr double kOnLevels = 0.4;               // … if levels hold this share of the points; some sensors fill in what lies between,
 constexpr std::size_t kFewestLevels = 10;       // and there are so many: fewer are floors and walls,
 constexpr double kFewestOnLevel = 10;           // with so many points each;
+constexpr double kUneven = 1.5;                 // of one step to the next, in the median: floors, walls and what lies between stand anywhere
 constexpr double kMostOnLevel = 0.05;           // one that holds more than this share of the points is a floor and counts no more
 
 /// Levels along an axis on which a coarsely rounded depth, or a coarse lattice, has left most of the points.
@@ -78,6 +81,16 @@ bool is_of_depth(const std::vector<Probe>& probes, const Vec3& axis, const Space
          weighted_median(probes, space, [&](const Probe& p) { return std::abs(p.fit.normal.dot(axis)); }) > kFacing;
 }
 
+/// Whether neighbouring steps are alike, as those of a sensor are.
+bool are_even(const std::vector<double>& at) {
+  std::vector<double> ratios;
+  for (std::size_t i = 2; i < at.size(); ++i) {
+    const double step = at[i] - at[i - 1], before = at[i - 1] - at[i - 2];
+    ratios.push_back(std::max(step, before) / std::min(step, before));
+  }
+  return median(std::move(ratios)) < kUneven;
+}
+
 /// The levels of points along an axis, if much of them lie on values that stand out among those `least` (m) away and less.
 std::optional<Levels> find_levels(const LargeVector<Vec3>& points, const Vec3& axis, double least) {
   const std::size_t every = points.size() / kMostLookedAt + 1;
@@ -102,7 +115,7 @@ std::optional<Levels> find_levels(const LargeVector<Vec3>& points, const Vec3& a
     levels.at.push_back(0.5 * (v.low + v.high));
     on_levels += std::min(v.count, most);
   }
-  if (levels.at.size() < kFewestLevels || on_levels < kOnLevels * (on_levels + beside)) return std::nullopt;
+  if (levels.at.size() < kFewestLevels || on_levels < kOnLevels * (on_levels + beside) || !are_even(levels.at)) return std::nullopt;
   return levels;
 }
 
