@@ -206,6 +206,32 @@ TEST(ChooseScale, CoarseDepthIsNoStaircase) {
     }
 }
 
+/// One sweep of a spinning lidar in a room of 6 × 5 × 2.6 m: sixteen lines, 7 to 17 cm apart on the walls and points every centimetre, with noise in the range.
+PointCloud sweep(double noise) {
+  PointCloud cloud;
+  Random random(6);
+  const Vec3 from(2.4, 1.9, 1.4), size(6, 5, 2.6);
+  for (int line = 0; line < 16; ++line)
+    for (int k = 0; k < 1800; ++k) {
+      const double up = radians(2.0 * line - 15.0), turn = radians(0.2 * k);
+      const Vec3 ray(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn), std::sin(up));
+      double range = 1e9;
+      for (int axis = 0; axis < 3; ++axis) range = std::min(range, ((ray[axis] > 0 ? size[axis] : 0.0) - from[axis]) / ray[axis]);
+      cloud.positions.push_back(from + (range + noise * random.normal()) * ray);
+    }
+  return cloud;
+}
+
+// Of a line whose noise is as wide as its points are apart, the nearest are a disc across the wall.
+TEST(ChooseScale, ReachesTheNextRingOfANoisySweep) {
+  for (const double noise : {0.003, 0.01, 0.02}) {
+    const PointCloud cloud = sweep(noise);
+    EXPECT_GT(scale_of(cloud), 0.12) << noise;
+    EXPECT_LT(scale_of(cloud), 0.3) << noise;
+    EXPECT_LT(test::run(cloud, Options()).result.planes.size(), 12u) << noise;
+  }
+}
+
 // A building site: ground, floor and slab hold most of the points, and boards lie at any height between them.
 TEST(ChooseScale, FloorsAndBoardsAreNoLevelsOfCoarseDepth) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {

@@ -18,6 +18,8 @@ constexpr double kEven = 0.1;                               // rms over spacing
 constexpr double kThick = 0.3;                              // rms over spacing that is no surface
 constexpr std::size_t kSurrounding = 6;                     // neighbours at least that tell the spacing
 constexpr double kThread = 0.2;                             // spread across over spread along: less is one line of a scan
+constexpr double kAcrossSurface = kPi / 3;                         // rad, from the surface: a line and its noise are a disc of their own
+constexpr double kBeyond = 1.4;                             // times as far as where they are no more
 constexpr std::size_t kFewestOfLine = 8;                    // neighbours that tell the noise of a drawing, if their
 constexpr double kThin = 0.25;                              // rms over spread is below this; a wall's other side is near
 constexpr double kFlat = 0.5;                               // rms over spread of a disc
@@ -46,15 +48,18 @@ std::size_t grow(const Neighbourhood& n, std::size_t first, std::size_t times, c
 Probe probe(const Neighbourhood& n, std::size_t index, const Space& space) {
   Probe p;
   p.index = index;
-  PlaneFit near;
-  const std::size_t last = space.is_2d() ? std::min(kSurrounding, n.size() - 1)
-                                         : grow(n, kSurrounding + 1, 2, space, near, [](const PlaneFit& f) { return f.spread_v > kThread * f.spread_u; });
-  p.surrounded = space.is_2d() || near.spread_v > kThread * near.spread_u;
-  p.spacing = (n[last] - n[0]).norm();
   const auto flat = [&](const PlaneFit& f) { return is_flat(f, space); };
   const auto thin = [](const PlaneFit& f) { return f.rms < kThin * f.spread_u; };
   const bool is_line = space.is_2d() && grow(n, kFewestOfLine, 2, space, p.fit, thin) < kFewestNeighbours - 1;
   if (!is_line) grow(n, kFewestNeighbours, 4, space, p.fit, flat);
+  PlaneFit near;
+  const auto wide = [](const PlaneFit& f) { return f.spread_v > kThread * f.spread_u; };
+  std::size_t last = space.is_2d() ? std::min(kSurrounding, n.size() - 1) : grow(n, kSurrounding + 1, 2, space, near, wide);
+  p.surrounded = space.is_2d() || wide(near);
+  p.spacing = p.reach = (n[last] - n[0]).norm();
+  if (space.is_2d() || !p.surrounded || line_angle(near.normal, p.fit.normal) < kAcrossSurface) return p;
+  last = grow(n, last + 2, 2, space, near, [&](const PlaneFit& f) { return wide(f) && line_angle(f.normal, p.fit.normal) < kAcrossSurface; });
+  p.reach = kBeyond * (n[last] - n[0]).norm();
   return p;
 }
 
@@ -88,7 +93,7 @@ std::vector<Probe> probe_source(PointSource& source, const Survey& survey, const
   for (std::size_t i = 0; i < near.size(); ++i) {
     if (near[i].size() < 2) {
       probes.push_back(probe(tree.around(i, most), i, space));
-      probes.back().spacing *= space.is_2d() ? survey.share : std::sqrt(survey.share);
+      for (double* length : {&probes.back().spacing, &probes.back().reach}) *length *= space.is_2d() ? survey.share : std::sqrt(survey.share);
       continue;
     }
     probes.push_back(probe(near[i], i, space));

@@ -19,6 +19,7 @@ struct Probe {
   PlaneFit fit;           ///< of the nearest 32 (2D: 8 or 16 in a line), or more where these are no flat disc
   bool surrounded = true; ///< false: even the last neighbour lies in one line with the others
   std::size_t index = 0;  ///< in the sample
+  double reach = 0;       ///< m, the spacing, or farther where the nearest are a line of a scan whose noise is as wide as its points are apart
 };
 
 /// Probes of the sample; of each the nearest `most` points count. `tree`: of the sample, as below.

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kProbes = 2000, kNormalProbes = 128;  // for the scale; for whether normals are usable
 constexpr double kSpacing = 1.25, kNoise = 4.0;             // times the spacing or the noise is a scale; times the noise a tolerance
 constexpr double kPlants = 2.0, kFewestFlat = 0.05;         // times as large a scale is made by what is not flat, if so many probes are: plants
+constexpr double kLines = 0.2;                              // of the probes, whose nearest are a line and its noise: those of a scan are
 constexpr double kLeastTolerance = 0.5;                     // of the scale
 constexpr std::size_t kWide = 512, kWideEvery = 4;          // neighbours that tell correlated noise; of every so many probes,
 constexpr double kWideFlat = 0.2, kMostNoise = 0.8;         // if this flat (rms over spread); of the surface there is less noise on this share
@@ -55,6 +56,9 @@ Scale estimate_scale(PointSource& source, const Survey& survey, const Space& spa
   const SampleTree tree(survey);
   std::vector<Probe> probes = survey.share < 1.0 ? probe_source(source, survey, tree, space, kProbes, kMostNeighbours, context)
                                                  : probe_sample(survey, tree, space, kProbes, kMostNeighbours, context);
+  const auto lines = std::count_if(probes.begin(), probes.end(), [](const Probe& p) { return p.reach > p.spacing; });
+  if (static_cast<double>(lines) > kLines * static_cast<double>(probes.size()))
+    for (Probe& p : probes) p.spacing = p.reach;
   if (!space.is_2d())
     if (std::vector<Probe> flat = flat_ones(probes, space);
         static_cast<double>(flat.size()) > kFewestFlat * static_cast<double>(probes.size()) && kPlants * scale_by(flat, space) < scale_by(probes, space))
