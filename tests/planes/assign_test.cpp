@@ -214,6 +214,26 @@ TEST(PlaneSums, AreThePointsMomentsInAnyOrder) {
   }
 }
 
+/// Of one plane: 6 m², 2 m² after a gap of 30 cm, 4 m² after another of 2.7 m, and a scrap far off.
+TEST(JoinParts, WhatLiesFarOffIsAPlaneOfItsOwn) {
+  Scene s;
+  Random random(3);
+  s.add({0, 0, 0}, {3, 0, 0}, {0, 2, 0}, 0.002, random);
+  for (const auto& [x, width] : {std::pair(3.3, 1.0), {7.0, 2.0}}) test::add_rectangle(s.cloud, {x, 0, 0}, {width, 0, 0}, {0, 2, 0}, 0.02, 0.002, random);
+  test::add_rectangle(s.cloud, {12, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, 0.02, 0.002, random);
+  s.truth.resize(s.cloud.size(), 0);
+  s.build();
+  join_parts(s.model, s.grid, s.cells, s.context);
+  ASSERT_EQ(s.model.parts.size(), 2u);
+  EXPECT_EQ(s.model.parts[0].surface, s.model.parts[1].surface);
+  const auto far_off = [&](int v) { return s.grid.moments[v].mean.x() > 6.5; };
+  const std::vector<int>&main = s.model.parts[0].cells, &piece = s.model.parts[1].cells;
+  EXPECT_TRUE(std::all_of(piece.begin(), piece.end(), far_off));
+  EXPECT_TRUE(std::is_sorted(main.begin(), main.end()));
+  EXPECT_LE(std::count_if(main.begin(), main.end(), far_off), 9);  // the scrap
+  EXPECT_EQ(main.size() + piece.size(), s.grid.size());
+}
+
 TEST(DropDoubtful, WhatLiesFartherOffAPlaneThanItsNoise) {
   PointCloud cloud;
   for (const double z : {0.0, 0.05, 0.07, -0.05, -0.2, 0.4}) cloud.positions.emplace_back(0.3, 0.2, z);
