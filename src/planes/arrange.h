@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include "planes/scan/scale.h"
 #include "planes/selection/select.h"
 #include "unseen/planes/types.h"
 
@@ -61,6 +62,9 @@ bool relate_again(Model& model, const AngleSet& angles, const Space& space);
 /// Replaces a surface's moments, e.g. by those of the points assigned to it; its variances are scaled along, but noise counts as no less than
 /// `least_noise` (m): of an image, whole strokes lie exactly in a row of pixels.
 void update_support(Surface& surface, const Moments& moments, const Space& space, double least_noise);
+
+/// Of surfaces that are much thicker than the `noise` (m), the sheet with most of the sample's points is what supports them: a door's leaf has two sides.
+void keep_main_sheets(Model& model, const Survey& survey, const VoxelGrid& grid, const Space& space, double noise, double tolerance);
 
 /// Variances (rad²) of a surface's tilts along u and v in refits.
 std::pair<double, double> tilt_variances(const Patch& support);

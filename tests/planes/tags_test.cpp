@@ -224,6 +224,45 @@ TEST(Tags, OfASmallRoomBesideALargeFloor) {
   EXPECT_EQ(found[3], "ceiling");
 }
 
+/// Which is seen better than the other is a matter of the scanner's place.
+TEST(Tags, OfASmallRoomBesideAHighHall) {
+  for (const bool more_ceiling : {false, true}) {
+    Arrangement all;
+    for (const double z : {0.0, 8.0}) add(all, {-20, 0, z}, Vec3(19.8, 0, 0), Vec3(0, 12, 0));
+    for (const double y : {0.0, 12.0}) add(all, {-20, y, 0}, Vec3(19.8, 0, 0), Vec3(0, 0, 8));
+    add_room(all, 0, 0.3, 2.7);
+    all.planes[4].area = more_ceiling ? 19.9 : 20.0;
+    all.planes[5].area = more_ceiling ? 20.0 : 19.9;
+    if (more_ceiling) std::swap(all.planes[4], all.planes[5]);
+    const std::vector<std::string> found = tags(all);
+    EXPECT_EQ(found[more_ceiling ? 5 : 4], "floor");
+    EXPECT_EQ(found[more_ceiling ? 4 : 5], "ceiling");
+  }
+}
+
+TEST(Tags, ADeskBetweenWallsTakesNothingFromTheFloor) {
+  Arrangement all;
+  add_room(all, 0, 0, 2.5);
+  add_room(all, 0, 2.8, 2.5);
+  add(all, {1, 3.2, 3.55}, Vec3(2, 0, 0), Vec3(0, 0.8, 0));  // in an alcove of the upper one
+  for (const double x : {1.0, 3.0}) add(all, {x, 3.2, 2.8}, Vec3(0, 0.8, 0), Vec3(0, 0, 2.5));
+  const std::vector<std::string> found = tags(all);
+  for (const std::size_t room : {0u, 6u}) {
+    EXPECT_EQ(found[room], "floor");
+    EXPECT_EQ(found[room + 1], "ceiling");
+  }
+  EXPECT_EQ(found[12], "horizontal");
+}
+
+TEST(Tags, AShelterOnALotHasNoCeiling) {
+  Arrangement all;
+  add(all, {-40, -40, 0}, Vec3(80, 0, 0), Vec3(0, 80, 0));
+  add(all, {0, 0, 2.4}, Vec3(14, 0, 0), Vec3(0, 14, 0));
+  add(all, {0, 0, 0}, Vec3(14, 0, 0), Vec3(0, 0, 2.4));
+  for (const double x : {0.0, 14.0}) add(all, {x, 0, 0}, Vec3(0, 14, 0), Vec3(0, 0, 2.4));
+  EXPECT_EQ(tags(all)[1], "horizontal");
+}
+
 TEST(Tags, ABedInACornerIsNoFloor) {
   Arrangement all;
   add_room(all, 0, 0, 2.7);

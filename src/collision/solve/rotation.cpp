@@ -12,7 +12,7 @@ namespace {
 struct Turn {
   explicit Turn(const Eigen::Vector3d& by) : r(by) {
     const double s = r.squaredNorm();
-    if (s < 0.25) {  // the next terms of the series are below 1e-12
+    if (s < 0.25) {  // the next terms of the series are below 1e-10
       sine = 1.0 + s * (-1.0 / 6.0 + s * (1.0 / 120.0 + s * (-1.0 / 5040.0 + s * (1.0 / 362880.0))));
       versine = 0.5 + s * (-1.0 / 24.0 + s * (1.0 / 720.0 + s * (-1.0 / 40320.0 + s * (1.0 / 3628800.0))));
     } else {

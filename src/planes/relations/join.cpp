@@ -8,7 +8,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kFarOff = 4.0;             // times the widest reach of a part: what is nearer is one piece, what is twice as far is not
+constexpr double kFarOff = 4.0;             // times the widest reach of a part: what is nearer is one piece, what is four times as far is not
 constexpr double kPieceOfPart = 0.05;     // of its points: a plane of its own
 constexpr std::size_t kFewestOfPiece = 20;  // voxels
 

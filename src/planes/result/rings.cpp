@@ -5,6 +5,7 @@
 namespace unseen::planes {
 
 bool Rings::contains(const Vec2& p) const {
+  if (!box.contains(p)) return false;
   bool inside = false;
   for (const std::vector<Vec2>& ring : rings)
     for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++)

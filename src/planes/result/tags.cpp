@@ -94,32 +94,33 @@ Bounds bounds_of(const ArrangedPlane& p, const Mat3& axes) {
   return e;
 }
 
-/// A large level plane.
+/// A level plane that may be a floor or a ceiling.
 struct Level {
+  std::size_t plane = 0;
   Bounds bounds;
-  double area = 0;  ///< m²
-  Rings rings;      ///< seen from above
+  double area = 0;            ///< m²
+  Rings rings;                ///< seen from above
+  std::vector<Vec2> samples;  ///< of what lies inside
 };
 
 /// Whether enough of the smaller plane lies above or below the other one: ground around a pit lies beside the pit's floor.
 bool lie_above_each_other(const Level& a, const Level& b) {
   const Level &small = a.area < b.area ? a : b, &large = &small == &a ? b : a;
   if (!small.rings.box.intersects(large.rings.box)) return false;
-  const std::vector<Vec2> own = small.rings.samples();
-  const auto common = std::count_if(own.begin(), own.end(), [&](const Vec2& s) { return large.rings.contains(s); });
-  return static_cast<double>(common) > kOverlap * static_cast<double>(own.size());
+  const auto common = std::count_if(small.samples.begin(), small.samples.end(), [&](const Vec2& s) { return large.rings.contains(s); });
+  return static_cast<double>(common) > kOverlap * static_cast<double>(small.samples.size());
 }
 
-/// How far it is to the next large level plane above and below; infinite without one.
+/// How far it is to the next level plane above and below that is not much smaller; infinite without one.
 struct Gaps {
   double above = kNowhere, below = kNowhere;
 };
 
-Gaps gaps_at(const Level& level, const std::vector<Level>& levels) {
+Gaps gaps_at(const Level& level, const std::vector<const Level*>& levels) {
   Gaps gaps;
-  for (const Level& other : levels) {
-    if (&other == &level || !lie_above_each_other(level, other)) continue;
-    const double higher = other.bounds.height() - level.bounds.height();
+  for (const Level* other : levels) {
+    if (other == &level || other->area < kLarge * level.area || !lie_above_each_other(level, *other)) continue;
+    const double higher = other->bounds.height() - level.bounds.height();
     double& gap = higher > 0 ? gaps.above : gaps.below;
     gap = std::min(gap, std::abs(higher));
   }
@@ -137,10 +138,11 @@ Walled walled_at(const ArrangedPlane& p, const Gaps& gaps, double to_bottom, dou
 }
 
 /// Below a floor is nothing, or the ceiling of the storey beneath; above a ceiling nothing, or the next floor, and its own floor below, unless nothing
-/// level is seen there: ground beside a pit has neither. Where they do not end the scene, walls tell floors and ceilings from stages and roofs.
+/// level is seen there: ground beside a pit has neither. Where they do not end the scene, walls tell floors and ceilings from stages and roofs, unless all is too
+/// low for a ceiling (`from_top` is infinite).
 std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top, bool lowest, const Walled& walled) {
   const bool floor = std::isinf(gaps.below) ? from_bottom < kAtEnd || walled.up : gaps.below < kSlab * gaps.above && std::isfinite(gaps.above);
-  const bool hangs = from_top < kAtEnd ? lowest || std::isfinite(gaps.below) : walled.down && std::isfinite(gaps.below);
+  const bool hangs = from_top < kAtEnd ? lowest || std::isfinite(gaps.below) : walled.down && std::isfinite(gaps.below) && std::isfinite(from_top);
   const bool ceiling = std::isinf(gaps.above) ? hangs : gaps.above < kSlab * gaps.below && std::isfinite(gaps.below);
   if (floor && !(ceiling && from_top < from_bottom)) return "floor";
   return ceiling ? "ceiling" : "horizontal";
@@ -166,37 +168,38 @@ void tag_planes(Arrangement& result) {
     low = std::min(low, bounds[i].low.z());
     high = std::max(high, bounds[i].high.z());
   }
-  std::vector<std::size_t> large, others;
   std::vector<Level> levels;
   std::vector<Wall> upright;
   for (std::size_t i = 0; i < result.planes.size(); ++i) {
     const ArrangedPlane& p = result.planes[i];
     const double angle = line_angle(p.plane.normal, up);
     if (angle > kPi / 2 - kLevel) upright.push_back(wall_of(p, up));
-    if (angle < kLevel) (p.area > kLarge * largest ? large : others).push_back(i);
+    if (angle >= kLevel || p.area < kSliver * largest) continue;
+    levels.push_back({i, bounds[i], p.area, rings_of(p, axes.col(0), axes.col(1)), {}});
+    levels.back().samples = levels.back().rings.samples();
   }
-  const auto add_level = [&](std::size_t i) { levels.push_back({bounds[i], result.planes[i].area, rings_of(result.planes[i], axes.col(0), axes.col(1))}); };
-  const auto walled = [&](std::size_t i, const Gaps& gaps) { return walled_at(result.planes[i], gaps, bounds[i].low.z() - low, high - bounds[i].high.z(), up, upright); };
-  for (const std::size_t i : large) add_level(i);
-  for (const std::size_t i : others) {
-    if (result.planes[i].area < kSliver * largest) continue;
-    add_level(i);
-    const Walled by = walled(i, gaps_at(levels.back(), levels));
-    if (by.up || by.down) large.push_back(i);
-    else levels.pop_back();
-  }
-
+  const auto is_large = [&](const Level& level) { return level.area > kLarge * largest; };
   double lowest = kNowhere;
-  for (const Level& level : levels) lowest = std::min(lowest, level.bounds.height());
+  for (const Level& level : levels)
+    if (is_large(level)) lowest = std::min(lowest, level.bounds.height());
   std::vector<double> rooms;  // heights
-  for (std::size_t k = 0; k < large.size(); ++k) {
-    const std::size_t i = large[k];
-    const Gaps gaps = gaps_at(levels[k], levels);
-    const double span = std::max(high - low, 1e-300);
+  const auto tag_level = [&](const Level& level, const std::vector<const Level*>& others) {
+    const Gaps gaps = gaps_at(level, others);
+    const Bounds& b = level.bounds;
+    const double span = std::max(high - low, 1e-300), to_bottom = b.low.z() - low, to_top = high - b.high.z();
     const bool roomy = span > kRoomy * std::sqrt(largest);
-    result.planes[i].tag = tag_of_level(gaps, (bounds[i].low.z() - low) / span, roomy ? (high - bounds[i].high.z()) / span : kNowhere, bounds[i].height() - lowest < kAtEnd * span, walled(i, gaps));
-    if (result.planes[i].tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
-  }
+    const Walled walled = walled_at(result.planes[level.plane], gaps, to_bottom, to_top, up, upright);
+    std::string& tag = result.planes[level.plane].tag;
+    tag = is_large(level) || walled.up || walled.down ? tag_of_level(gaps, to_bottom / span, roomy ? to_top / span : kNowhere, b.height() - lowest < kAtEnd * span, walled) : "horizontal";
+    if (tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
+    return tag != "horizontal";
+  };
+  std::vector<const Level*> all, ends;  // of the small ones, floors and ceilings alone end the rooms of large ones
+  for (const Level& level : levels) all.push_back(&level);
+  for (const Level& level : levels)
+    if (is_large(level) || tag_level(level, all)) ends.push_back(&level);
+  for (const Level& level : levels)
+    if (is_large(level)) tag_level(level, ends);
   const double room = rooms.empty() ? high - low : median(std::move(rooms));
   for (std::size_t i = 0; i < result.planes.size(); ++i) {
     ArrangedPlane& p = result.planes[i];

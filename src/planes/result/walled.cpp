@@ -23,17 +23,21 @@ Wall wall_of(const ArrangedPlane& plane, const Vec3& up) {
 }
 
 double walled_share(const ArrangedPlane& level, double height, const Vec3& up, const std::vector<Wall>& walls) {
-  if (level.polygon.empty()) return 0.0;
+  if (level.polygon.empty() || level.polygon.front().empty()) return 0.0;
   const Vec3 u = any_orthogonal(up), v = up.cross(u);
   std::vector<Vec2> corners;
   for (const Vec3& c : level.polygon.front()) corners.emplace_back(u.dot(c), v.dot(c));
   corners = convex_hull(std::move(corners));
   double around = 0, walled = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) around += (corners[(i + 1) % corners.size()] - corners[i]).norm();
-  const double aside = kAside * std::sqrt(level.area), bottom = up.dot(level.polygon.front().front());
+  if (!(around > 0)) return 0.0;
+  const double aside = kAside * std::sqrt(level.area);
+  const Plane& plane = level.plane;
   const auto is_walled = [&](const Vec2& at) {
+    const Vec3 below = at.x() * u + at.y() * v;
+    const double bottom = (plane.offset - plane.normal.dot(below)) / plane.normal.dot(up);
+    const Vec3 foot = below + bottom * up;
     return std::any_of(walls.begin(), walls.end(), [&](const Wall& wall) {
-      const Vec3 foot = at.x() * u + at.y() * v + bottom * up;
       if (std::abs(wall.plane.signed_distance(foot)) > aside) return false;
       return std::count_if(std::begin(kHeights), std::end(kHeights), [&](double h) { return wall.rings.contains({wall.along.dot(foot), bottom + h * height}); }) >= kMost;
     });
