@@ -9,7 +9,7 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kFarOff = 4.0;             // times the widest reach of a part: what is nearer is one piece, what is four times as far is not
-constexpr double kPieceOfPart = 0.05;     // of its points: a plane of its own
+constexpr double kPieceOfPart = 0.05;       // of its points: a plane of its own
 constexpr std::size_t kFewestOfPiece = 20;  // voxels
 
 /// A part's cells in pieces that lie far from each other; what is too small for one goes with the largest, which comes first.

@@ -13,7 +13,8 @@ namespace unseen::planes {
 /// these lie on the part's plane within half the scale and their normals do not contradict it.
 void extend_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const Context& context);
 
-/// Makes one of the parts of a surface that adjoin since they grew, as a wall does across the end of another one.
+/// Makes one of the parts of a surface that adjoin since they grew, as a wall does across the end of another one, and parts of their own of pieces of one
+/// that lie far from each other.
 void join_parts(Model& model, const VoxelGrid& grid, const Cells& cells, const Context& context);
 
 /// A plane that a voxel's points may belong to, and whether the voxel's own normal speaks for it.

@@ -148,6 +148,55 @@ std::string tag_of_level(const Gaps& gaps, double from_bottom, double from_top, 
   return ceiling ? "ceiling" : "horizontal";
 }
 
+/// Where the scene ends, m, and how large its largest level plane is, m².
+struct Ends {
+  double low = kNowhere, high = -kNowhere, largest = 0;
+  double span() const { return std::max(high - low, 1e-300); }
+  bool is_large(const Level& level) const { return level.area > kLarge * largest; }
+};
+
+Ends ends_of(const Arrangement& result, const std::vector<Bounds>& bounds, const Vec3& up) {
+  Ends ends;
+  double walls = 0;
+  for (const ArrangedPlane& p : result.planes) {
+    if (line_angle(p.plane.normal, up) < kLevel) ends.largest = std::max(ends.largest, p.area);
+    if (line_angle(p.plane.normal, up) > kPi / 2 - kLevel) walls += p.area;
+  }
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (result.planes[i].area < kSliver * std::min(ends.largest, walls)) continue;
+    ends.low = std::min(ends.low, bounds[i].low.z());
+    ends.high = std::max(ends.high, bounds[i].high.z());
+  }
+  return ends;
+}
+
+/// Tags level planes: of the small ones those with walls around, and then floors and ceilings alone end the rooms of large ones. Returns the rooms' heights, m.
+std::vector<double> tag_levels(const std::vector<Level>& levels, const std::vector<Wall>& walls, const Ends& ends, const Vec3& up, Arrangement& result) {
+  double lowest = kNowhere;
+  for (const Level& level : levels)
+    if (ends.is_large(level)) lowest = std::min(lowest, level.bounds.height());
+  const bool roomy = ends.span() > kRoomy * std::sqrt(ends.largest);
+  std::vector<double> rooms;
+  const auto tag = [&](const Level& level, const std::vector<const Level*>& others) {
+    ArrangedPlane& plane = result.planes[level.plane];
+    const Gaps gaps = gaps_at(level, others);
+    const double to_bottom = level.bounds.low.z() - ends.low, to_top = ends.high - level.bounds.high.z();
+    const Walled walled = walled_at(plane, gaps, to_bottom, to_top, up, walls);
+    plane.tag = "horizontal";
+    if (ends.is_large(level) || walled.up || walled.down)
+      plane.tag = tag_of_level(gaps, to_bottom / ends.span(), roomy ? to_top / ends.span() : kNowhere, level.bounds.height() - lowest < kAtEnd * ends.span(), walled);
+    if (plane.tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
+    return plane.tag != "horizontal";
+  };
+  std::vector<const Level*> all, of_rooms;
+  for (const Level& level : levels) all.push_back(&level);
+  for (const Level& level : levels)
+    if (ends.is_large(level) || tag(level, all)) of_rooms.push_back(&level);
+  for (const Level& level : levels)
+    if (ends.is_large(level)) tag(level, of_rooms);
+  return rooms;
+}
+
 }  // namespace
 
 void tag_planes(Arrangement& result) {
@@ -156,51 +205,20 @@ void tag_planes(Arrangement& result) {
   Mat3 axes;
   axes << u, up.cross(u), up;
   std::vector<Bounds> bounds;
-  double largest = 0, walls = 0;
-  for (const ArrangedPlane& p : result.planes) {
-    bounds.push_back(bounds_of(p, axes));
-    if (line_angle(p.plane.normal, up) < kLevel) largest = std::max(largest, p.area);
-    if (line_angle(p.plane.normal, up) > kPi / 2 - kLevel) walls += p.area;
-  }
-  double low = kNowhere, high = -kNowhere;
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (result.planes[i].area < kSliver * std::min(largest, walls)) continue;
-    low = std::min(low, bounds[i].low.z());
-    high = std::max(high, bounds[i].high.z());
-  }
+  for (const ArrangedPlane& p : result.planes) bounds.push_back(bounds_of(p, axes));
+  const Ends ends = ends_of(result, bounds, up);
   std::vector<Level> levels;
-  std::vector<Wall> upright;
+  std::vector<Wall> walls;
   for (std::size_t i = 0; i < result.planes.size(); ++i) {
     const ArrangedPlane& p = result.planes[i];
     const double angle = line_angle(p.plane.normal, up);
-    if (angle > kPi / 2 - kLevel) upright.push_back(wall_of(p, up));
-    if (angle >= kLevel || p.area < kSliver * largest) continue;
+    if (angle > kPi / 2 - kLevel) walls.push_back(wall_of(p, up));
+    if (angle >= kLevel || p.area < kSliver * ends.largest) continue;
     levels.push_back({i, bounds[i], p.area, rings_of(p, axes.col(0), axes.col(1)), {}});
     levels.back().samples = levels.back().rings.samples();
   }
-  const auto is_large = [&](const Level& level) { return level.area > kLarge * largest; };
-  double lowest = kNowhere;
-  for (const Level& level : levels)
-    if (is_large(level)) lowest = std::min(lowest, level.bounds.height());
-  std::vector<double> rooms;  // heights
-  const auto tag_level = [&](const Level& level, const std::vector<const Level*>& others) {
-    const Gaps gaps = gaps_at(level, others);
-    const Bounds& b = level.bounds;
-    const double span = std::max(high - low, 1e-300), to_bottom = b.low.z() - low, to_top = high - b.high.z();
-    const bool roomy = span > kRoomy * std::sqrt(largest);
-    const Walled walled = walled_at(result.planes[level.plane], gaps, to_bottom, to_top, up, upright);
-    std::string& tag = result.planes[level.plane].tag;
-    tag = is_large(level) || walled.up || walled.down ? tag_of_level(gaps, to_bottom / span, roomy ? to_top / span : kNowhere, b.height() - lowest < kAtEnd * span, walled) : "horizontal";
-    if (tag == "floor" && std::isfinite(gaps.above)) rooms.push_back(gaps.above);
-    return tag != "horizontal";
-  };
-  std::vector<const Level*> all, ends;  // of the small ones, floors and ceilings alone end the rooms of large ones
-  for (const Level& level : levels) all.push_back(&level);
-  for (const Level& level : levels)
-    if (is_large(level) || tag_level(level, all)) ends.push_back(&level);
-  for (const Level& level : levels)
-    if (is_large(level)) tag_level(level, ends);
-  const double room = rooms.empty() ? high - low : median(std::move(rooms));
+  std::vector<double> rooms = tag_levels(levels, walls, ends, up, result);
+  const double room = rooms.empty() ? ends.high - ends.low : median(std::move(rooms));
   for (std::size_t i = 0; i < result.planes.size(); ++i) {
     ArrangedPlane& p = result.planes[i];
     if (!p.tag.empty()) continue;
