@@ -64,7 +64,7 @@ bool relate_again(Model& model, const AngleSet& angles, const Space& space);
 void update_support(Surface& surface, const Moments& moments, const Space& space, double least_noise);
 
 /// Of surfaces that are much thicker than the `noise` (m), the sheet with most of the sample's points is what supports them: a door's leaf has two sides.
-void keep_main_sheets(Model& model, const Survey& survey, const VoxelGrid& grid, const Space& space, double noise, double tolerance);
+void keep_main_sheets(Model& model, const Survey& survey, const VoxelGrid& grid, const Space& space, double noise, double tolerance, const Context& context);
 
 /// Variances (rad²) of a surface's tilts along u and v in refits.
 std::pair<double, double> tilt_variances(const Patch& support);

@@ -173,7 +173,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       on_surface[model.parts[p].surface] += sums[p];
     }
     for (std::size_t s = 0; s < on_surface.size(); ++s) update_support(model.surfaces[s], on_surface[s], space, patches.least_noise);
-    keep_main_sheets(model, seen, grid, space, 2.0 * patches.least_noise, tolerance);
+    keep_main_sheets(model, seen, grid, space, 2.0 * patches.least_noise, tolerance, context);
     refit_held(model, tolerance, space);
     if (relate_again(model, angles, space)) refit_held(model, tolerance, space);
     update_planes(reach, model);

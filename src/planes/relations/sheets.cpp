@@ -27,13 +27,16 @@ std::vector<Vec3> main_sheet(const std::vector<Vec3>& points, const PlaneFit& al
       if (std::abs(normal.dot(p - at)) < kInSheet * noise) found.push_back(p);
     return found;
   };
-  std::vector<Vec3> best;
+  std::size_t most = 0;
+  Vec3 normal_of_most = all.normal, at = points.front();
   for (int i = 0; i < kTries; ++i) {
     const Vec3 &a = points[random.index(points.size())], &b = points[random.index(points.size())], &c = points[random.index(points.size())];
     const Vec3 normal = (b - a).cross(c - a).normalized();
     if (!(line_angle(normal, all.normal) < kTurned)) continue;
-    if (std::vector<Vec3> found = near(normal, a); found.size() > best.size()) best = std::move(found);
+    const auto count = static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const Vec3& p) { return std::abs(normal.dot(p - a)) < kInSheet * noise; }));
+    if (count > most) most = count, normal_of_most = normal, at = a;
   }
+  std::vector<Vec3> best = near(normal_of_most, at);
   for (int round = 0; round < 3 && best.size() >= kFewest; ++round) {
     Moments m;
     for (const Vec3& p : best) m += Moments{1.0, p, Mat3::Zero()};
@@ -44,7 +47,7 @@ std::vector<Vec3> main_sheet(const std::vector<Vec3>& points, const PlaneFit& al
 
 }  // namespace
 
-void keep_main_sheets(Model& model, const Survey& survey, const VoxelGrid& grid, const Space& space, double noise, double tolerance) {
+void keep_main_sheets(Model& model, const Survey& survey, const VoxelGrid& grid, const Space& space, double noise, double tolerance, const Context& context) {
   if (space.is_2d()) return;
   const auto is_thick = [&](const Surface& s) { return s.support.fit.rms > kThick * noise; };
   if (std::none_of(model.surfaces.begin(), model.surfaces.end(), is_thick)) return;
@@ -61,6 +64,7 @@ void keep_main_sheets(Model& model, const Survey& survey, const VoxelGrid& grid,
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
     if (points[k].size() < kFewest) continue;
+    context.check();
     Patch& support = model.surfaces[k].support;
     const std::vector<Vec3> sheet = main_sheet(points[k], support.fit, noise, space);
     if (sheet.size() < kFewest || static_cast<double>(sheet.size()) < kMost * static_cast<double>(points[k].size())) continue;
