@@ -21,6 +21,7 @@ const double kLeansCosine = std::cos(radians(5.0));
 constexpr double kLeansInto = 0.25;  // share of what the whole adds to its parts, in what it leans on
 constexpr double kOverlap = 0.3;  // of the shorter part's length: parts of one box may each reach into the other
 constexpr double kSlabOff = 0.03, kTurnedOff = 2.0;  // of a slab's length, and of what its turn moves: that the end of a patch may be off
+constexpr double kOfThin = 0.5;   // of a part thinner than the tolerance, as a top of which nothing else was seen: that overlaps
 constexpr double kSpacings = 3.0;  // between pixels, that an edge may be off
 constexpr double kLeastTolerance = 0.004, kLargestTolerance = 0.03;  // m
 
@@ -109,7 +110,10 @@ std::optional<OrientedBox> joined(const DepthView& view, const Cuboid& a, const 
     spans[k] = {std::min(of_a[k].low, of_b[k].low), std::max(of_a[k].high, of_b[k].high)};
   }
   const auto overlap = [&](int k) { return std::min(of_a[k].high, of_b[k].high) - std::max(of_a[k].low, of_b[k].low); };
-  const auto share = [&](int k) { return overlap(k) <= tolerance ? 0.0 : overlap(k) / std::min(of_a[k].high - of_a[k].low, of_b[k].high - of_b[k].low); };
+  const auto share = [&](int k) {
+    const double shorter = std::min(of_a[k].high - of_a[k].low, of_b[k].high - of_b[k].low);
+    return overlap(k) <= std::min(tolerance, kOfThin * shorter) ? 0.0 : overlap(k) / shorter;
+  };
   int apart = 0;
   for (int k = 1; k < 3; ++k)
     if (share(k) < share(apart)) apart = k;
