@@ -19,7 +19,8 @@ constexpr double kOff = 6.0;          // σ from every plane
 constexpr double kCarriesMost = 0.6;  // of the points of all pieces
 constexpr double kClearlyMore = 1.5;  // evidence that it takes to turn a picture
 constexpr double kFills = 0.5, kHardlyAny = 0.05;  // of a picture
-const double kTurned = radians(60.0), kSteep = std::sin(radians(30.0)), kStraight = std::cos(radians(20.0));
+constexpr double kSeldom = 0.25;      // evidence counts so much of a picture that is upside down or aslant; portrait is usual
+const double kTurned = radians(60.0), kPortrait = radians(25.0), kSteep = std::sin(radians(30.0)), kStraight = std::cos(radians(20.0));
 
 /// Connected points beside the large planes, and how it is linked to each of them.
 struct Piece {
@@ -115,6 +116,9 @@ std::optional<double> carried_share(const Scan& scan, const std::vector<Level>& 
   return all > 0.0 ? std::optional(carried / all) : std::nullopt;
 }
 
+/// About its axis, rad; 0 = upright.
+double turn_of(const Vec3& up) { return std::abs(std::atan2(up.x(), -up.y())); }
+
 /// m²: what faces `up`, the less the more the camera would look at a wall as nobody looks at a floor, whatever it is turned
 /// by about its axis, and the less stands on it.
 double evidence(const Scan& scan, const std::vector<int>& large, const Vec3& up, double share) {
@@ -122,7 +126,8 @@ double evidence(const Scan& scan, const std::vector<int>& large, const Vec3& up,
   for (const int f : large)
     if (scan.faces.faces[f].plane.normal.dot(up) > kHorizontal) area += scan.faces.faces[f].area;
   const double pitch = (kDown * up.head<2>().norm() - kForward * up.z()) / std::hypot(kDown, kForward);
-  return std::pow(std::max(pitch, 0.0) * share, 4) * area;
+  const double often = is_turned(up) && std::abs(turn_of(up) - 0.5 * kPi) > kPortrait ? kSeldom : 1.0;
+  return std::pow(std::max(pitch, 0.0) * share, 4) * area * often;
 }
 
 double points_on(const Scan& scan, const Level& level) {
@@ -144,7 +149,7 @@ bool fills_the_picture(const Scan& scan, const std::vector<Level>& planes, const
 }  // namespace
 
 bool is_turned(const Vec3& up) {
-  return up.head<2>().norm() > kSteep && std::abs(std::atan2(up.x(), -up.y())) > kTurned;
+  return up.head<2>().norm() > kSteep && turn_of(up) > kTurned;
 }
 
 FoundUp find_up(const Scan& scan) {
@@ -159,7 +164,7 @@ FoundUp find_up(const Scan& scan) {
       if (const double told = evidence(scan, large, level.plane.normal, 1.0); told > most) most = told, found.up = level.plane.normal;
     return found;
   }
-  const double usual_evidence = evidence(scan, large, usual, carried_share(scan, planes, usual).value_or(0.0));
+  const double usual_evidence = evidence(scan, large, usual, carried_share(scan, planes, usual).value_or(1.0));
   double most = usual_evidence;
   for (const Level& level : large_or_facing(planes, usual)) {
     const Vec3& up = level.plane.normal;
