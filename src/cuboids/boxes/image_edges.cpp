@@ -120,6 +120,20 @@ bool stands_on(const Support& ground, const OrientedBox& box) {
   return std::abs(ground.plane.signed_distance(box.center - box.half_size.z() * box.axes.col(2))) < 1e-3;
 }
 
+/// Which sides another box of the same stack adjoins: −x, +x, −y, +y, −z, +z.
+std::array<bool, 6> flush_sides(const std::vector<Cuboid>& cuboids, std::size_t k, double probe) {
+  std::array<bool, 6> flush{};
+  const OrientedBox& box = cuboids[k].box;
+  for (int side = 0; side < 6; ++side) {
+    const Vec3 beyond = box.center + (side % 2 == 0 ? -1.0 : 1.0) * (box.half_size[side / 2] + probe) * box.axes.col(side / 2);
+    flush[side] = std::any_of(cuboids.begin(), cuboids.end(), [&](const Cuboid& other) {
+      const bool beside = &other != &cuboids[k] && other.stack >= 0 && other.stack == cuboids[k].stack;
+      return beside && ((other.box.axes.transpose() * (beyond - other.box.center)).cwiseAbs() - other.box.half_size).maxCoeff() < probe;
+    });
+  }
+  return flush;
+}
+
 struct EdgeProblem {
   const RgbdFrame& frame;
   const ImageEdges& edges;
@@ -204,6 +218,7 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
       if (d.maxCoeff() < 4.0 * seen.graph.sigma[i]) points[k].push_back(seen.points[i]);
     }
   }
+  const std::vector<Cuboid> measured = cuboids;
   const auto one = [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       Cuboid& cuboid = cuboids[k];
@@ -211,11 +226,12 @@ void align_to_image_edges(const RgbdFrame& frame, const Observation& seen, const
       const double sigma = view.sigma(cuboid.box.center), scale = std::max(1.0, sigma / 0.001) * 0.001;
       const auto faces = seen_sides(cuboid.box, points[k], view.viewpoint(), std::max(sigma, 0.001));
       const double voxel = std::max(2.0 * view.spacing(cuboid.box.center), sigma);
+      const std::array<bool, 6> flush = flush_sides(measured, k, voxel);
       for (const auto& [seen_side, slack, more_free] : kLatitudes) {
         DepthResidual depth{{}, {}, 0.5 * std::sqrt(static_cast<double>(samples[k].size()) / 6.0)};
         for (int side = 0; side < 6; ++side) {
           depth.inside[side] = (faces[side] ? seen_side : kInside) * scale;
-          depth.outside[side] = (faces[side] ? seen_side : kOutside) * scale;
+          depth.outside[side] = (faces[side] ? seen_side : flush[side] ? kInside : kOutside) * scale;
         }
         // Below is what it stands on, and its shadow.
         depth.outside[4] = kInside * scale;

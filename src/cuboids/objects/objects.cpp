@@ -10,6 +10,7 @@
 #include "core/linear.h"
 #include "cuboids/objects/join_surfaces.h"
 #include "cuboids/objects/plain_colors.h"
+#include "cuboids/objects/seams.h"
 #include "cuboids/objects/stack_levels.h"
 #include "cuboids/objects/strokes.h"
 #include "cuboids/surfaces/depth_noise.h"
@@ -175,6 +176,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
       const std::vector<std::vector<int>> parts = components(seen, joined);
       stacks = find_stacks(seen, parts, context);
       find_plain_colors(frame, seen, parts, DepthView(frame, seen.T_world_camera, depth_noise(frame, options)), stacks, context);
+      find_seams(frame, seen, parts, stacks, context);
     }
     if (stacks.stack_of_piece.size() > 1) joined = join_surfaces(seen, group, stacks.piece_of_point);
     const int first = static_cast<int>(labels.size()) + 2;
