@@ -71,10 +71,53 @@ TEST(Seams, AreNotWhatIsPrinted) {
   EXPECT_EQ(count_of(carton, printed), 1u) << "print";
 }
 
-TEST(Seams, AreNotALid) {
+TEST(Seams, AreNotALidNorTheClosingLineOfASuitcase) {
   Scene box = wall(1, 1, {0.35, 0.25, 0.2});
   box.boxes.front().axes = Eigen::AngleAxisd(radians(35.0), Vec3::UnitZ()).toRotationMatrix();
-  EXPECT_EQ(count_of(box, [](const Vec3& p, int side) { return side != kTop && near_any(p.z(), {0.165}) ? kDark : kBrown; }), 1u);
+  for (const double height : {0.165, 0.14})
+    EXPECT_EQ(count_of(box, [&](const Vec3& p, int side) { return side != kTop && near_any(p.z(), {height}) ? kDark : kBrown; }), 1u) << height;
+}
+
+/// What is printed on one side stays so though a true seam parts the boxes that it is on.
+TEST(Seams, BetweenChestsMakeNoneOfTheLinesOfTheirDrawersAndDoors) {
+  const Scene row = wall(2, 1, {0.3, 0.25, 0.3});
+  const auto chests = [](const Vec3& p, int side) { return near_any(p.x(), {0.0}) || (side != kTop && near_any(p.z(), {0.1, 0.2})) ? kDark : kWhite; };
+  const auto doors = [](const Vec3& p, int side) { return near_any(p.x(), {0.0}) || (side != kTop && near_any(p.x(), {-0.15, 0.15})) ? kDark : kWhite; };
+  const auto flaps = [](const Vec3& p, int side) { return near_any(p.x(), {0.0}) || (side == kTop && near_any(p.y(), {1.2})) ? kDark : kBrown; };
+  EXPECT_EQ(count_of(row, chests), 2u);
+  EXPECT_EQ(count_of(row, doors), 2u);
+  EXPECT_EQ(count_of(row, flaps), 2u);
+}
+
+/// A box on it hides where the top would tell, but the camera is too low to see it anyway.
+TEST(Seams, AreNotTheDoorsOfAWardrobe) {
+  Scene scene;
+  scene.height = 0.8;
+  scene.pitch = radians(10.0);
+  scene.boxes = {upright(0, 2.0, 0, {0.6, 0.4, 0.8}, 0), upright(0, 2.0, 0.8, {0.4, 0.38, 0.2}, 0)};
+  EXPECT_EQ(count_of(scene, [](const Vec3& p, int) { return p.z() < 0.8 && near_any(p.x(), {0.0}) ? kDark : kWhite; }), 2u);
+}
+
+/// Less than 9 mm is a seam, more a strap, or a shadow.
+TEST(Seams, AreNotStraps) {
+  Scene near = wall(1, 1, {0.5, 0.3, 0.25});
+  near.focal = 1050;
+  near.width = 1280;
+  near.image_height = 960;
+  EXPECT_EQ(count_of(near, [](const Vec3& p, int) { return std::abs(p.x()) < 0.01 ? Color{0.1, 0.06, 0.03} : kBrown; }), 1u);
+}
+
+/// Neither is any piece of a row smaller than what counts as an object beside a large one.
+TEST(Seams, MakeNoCrumbs) {
+  Scene scene;
+  scene.height = 0.9;
+  scene.boxes = {upright(0, 2.2, 0, {1.6, 0.4, 0.9}, 0)};
+  for (int k = 0; k < 8; ++k) scene.boxes.push_back(upright(-0.14 + 0.04 * k, 1.6, 0, {0.04, 0.05, 0.03}, 0));
+  const std::vector<Cuboid> found = perceive(painted(scene, [](const Vec3& p, int) { return p.y() < 1.9 && near_any(std::remainder(p.x(), 0.04), {0.0}) ? kDark : kBrown; })).cuboids;
+  double width = 0;
+  for (const Cuboid& cuboid : found)
+    if (cuboid.box.center.y() < 1.9) width += 2.0 * cuboid.box.half_size.x();
+  EXPECT_NEAR(width, 0.32, 0.05);
 }
 
 }  // namespace

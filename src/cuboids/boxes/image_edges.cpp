@@ -120,7 +120,7 @@ bool stands_on(const Support& ground, const OrientedBox& box) {
   return std::abs(ground.plane.signed_distance(box.center - box.half_size.z() * box.axes.col(2))) < 1e-3;
 }
 
-/// Which sides another box of the same stack adjoins: −x, +x, −y, +y, −z, +z.
+/// Beyond the middle of which sides another box of the same stack begins: −x, +x, −y, +y, −z, +z.
 std::array<bool, 6> flush_sides(const std::vector<Cuboid>& cuboids, std::size_t k, double probe) {
   std::array<bool, 6> flush{};
   const OrientedBox& box = cuboids[k].box;

@@ -106,6 +106,12 @@ std::vector<double> roughness_of(const Observation& seen) {
   return roughness;
 }
 
+/// How many points an object has at the least, among these pieces.
+std::size_t fewest_points(const std::vector<std::vector<int>>& pieces, bool of_all) {
+  const std::size_t total = std::accumulate(pieces.begin(), pieces.end(), std::size_t{0}, [](std::size_t n, const auto& p) { return n + p.size(); });
+  return std::max(kFewestObjectPoints, of_all ? static_cast<std::size_t>(kSmallestObject * static_cast<double>(total)) : 0);
+}
+
 /// Too few points, or no farther from the supports than their own noise, or than these are rough.
 bool is_debris(const Observation& seen, const std::vector<double>& roughness, const std::vector<int>& part, std::size_t fewest) {
   if (part.size() < fewest) return true;
@@ -176,7 +182,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
       const std::vector<std::vector<int>> parts = components(seen, joined);
       stacks = find_stacks(seen, parts, context);
       find_plain_colors(frame, seen, parts, DepthView(frame, seen.T_world_camera, depth_noise(frame, options)), stacks, context);
-      find_seams(frame, seen, parts, stacks, context);
+      find_seams(frame, seen, parts, fewest_points(parts, !drawn), stacks, context);
     }
     if (stacks.stack_of_piece.size() > 1) joined = join_surfaces(seen, group, stacks.piece_of_point);
     const int first = static_cast<int>(labels.size()) + 2;
@@ -188,8 +194,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   const std::vector<double> roughness = roughness_of(seen);
   std::size_t debris = 0;
   std::vector<std::vector<int>> pieces = components(seen, object);
-  const std::size_t total = std::accumulate(pieces.begin(), pieces.end(), std::size_t{0}, [](std::size_t n, const auto& p) { return n + p.size(); });
-  const std::size_t fewest = std::max(kFewestObjectPoints, masked || drawn ? 0 : static_cast<std::size_t>(kSmallestObject * static_cast<double>(total)));
+  const std::size_t fewest = fewest_points(pieces, !masked && !drawn);
   for (std::vector<int>& points : pieces) {
     if (is_debris(seen, roughness, points, fewest)) {
       ++debris;

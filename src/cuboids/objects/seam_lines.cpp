@@ -11,7 +11,8 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr std::array<double, 3> kBeside = {2.0, 3.5, 6.0};  // pixels, from a seam to what is beside it: of narrow ones, and of wide ones
+constexpr std::array<double, 3> kBeside = {2.0, 3.5, 6.0};  // pixels, from a seam to what is beside it: of narrow ones, and of wide ones,
+constexpr double kMostBeside = 0.009;  // m, at most: what is wider is a strap, or a shadow
 constexpr double kRowPixels = 3.0;    // along a line, that are looked at together
 constexpr double kLeastContrast = 5.0, kContrastNoise = 2.5;  // of 255; times the noise of the picture
 constexpr int kOnLine = 1, kBesideLine = 4;    // places: a line may be off by so much; what is beside it is no farther
@@ -93,6 +94,7 @@ SeamLines seam_lines(const GreyPicture& picture, const Camera& camera, const Obs
     const double here = picture.at(at);
     double dark = -here, step = 0;
     for (const double beside : kBeside) {
+      if (beside > kBeside.front() && beside * width.back() > kMostBeside) break;
       const double before = picture.at(at - beside * unit), beyond = picture.at(at + beside * unit);
       dark = std::max(dark, std::min(before, beyond) - here);
       if (beside == kBeside.front()) step = beyond - before;

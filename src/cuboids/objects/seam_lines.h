@@ -23,7 +23,7 @@ class GreyPicture {
 /// What the picture shows along lines that run straight over the whole of one side of a part: of each place across them, on how much of the line.
 struct SeamLines {
   double low = 0, width = 0;        ///< m, of the first place, and between places: about a pixel
-  std::vector<int> rows;            ///< how much of each line is in the picture, in steps of three pixels
+  std::vector<int> rows;            ///< how much of each line is in the picture, in steps of about three pixels
   std::vector<double> dark;         ///< 0 … 1: where it is darker than what is on either side
   std::array<std::vector<double>, 2> step;  ///< 0 … 1: where it is darker beyond than before, and the other way round
   std::array<double, 3> usual{};                ///< what most lines of the side have no more of (dark, and each step): where prints are everywhere, a line says little

@@ -8,8 +8,9 @@
 
 namespace unseen::cuboids {
 
-/// Parts (lists of points) over which the picture shows seams, as of equal cartons side by side, are cut there: straight lines that run over the whole part on
-/// two of its sides and meet at their common edge. Prints and tapes seldom do. Adds to `stacks`, instead of the levels of such a part.
-void find_seams(const RgbdFrame& frame, const Observation& seen, const std::vector<std::vector<int>>& parts, Stacks& stacks, const Context& context);
+/// Parts (lists of points) over which the picture shows seams, as of equal cartons side by side, are cut there: straight dark lines that run over the whole of
+/// two of its sides, where both meet; over its front alone where the part has a step, or where another piece stands on it and hides its top. What is printed on one side, bands, lids and
+/// straps are none. No piece has less than `fewest` points. Adds to `stacks`, together with the levels and rows of what is between seams.
+void find_seams(const RgbdFrame& frame, const Observation& seen, const std::vector<std::vector<int>>& parts, std::size_t fewest, Stacks& stacks, const Context& context);
 
 }  // namespace unseen::cuboids

@@ -8,7 +8,7 @@
 
 namespace unseen::cuboids {
 
-/// Parts that are cut at levels, or at walls. The pieces between these are numbered 1, 2, … over all stacks, from below or along the row in each.
+/// Parts that are cut at levels, or at walls. The pieces between these are numbered 1, 2, … over all stacks: levels from below, rows along.
 struct Stacks {
   std::vector<int> piece_of_point;  ///< 0 = in no stack
   std::vector<int> stack_of_piece;  ///< 0, 1, …; that of piece 0 is −1

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+// What cameras see that look at furniture before a wall, or down at things on things.
+#include <gtest/gtest.h>
+
+#include "perception_scenes.h"
+#include "unseen/cuboids/cuboids.h"
+
+namespace unseen::cuboids::test {
+namespace {
+
+/// The wall is as large as the floor, and touches what stands before it.
+TEST(SteepViews, UpIsNotAwayFromTheWallBehindCupboards) {
+  for (const double away : {2.0, 2.36})
+    for (const double yaw : {-30.0, -20.0})
+      for (const double tall : {1.05, 1.4}) {
+        Scene scene;
+        scene.height = 0.6 + 0.466 * away;
+        scene.pitch = radians(25.0);
+        const Vec3 about(0, away, 0);
+        const Mat3 turn = Eigen::AngleAxisd(radians(yaw), Vec3::UnitZ()).toRotationMatrix();
+        scene.boxes = {upright(-0.3, away, 0, {1.2, 0.6, 0.85}, 0), upright(0.605, away, 0, {0.6, 0.6, tall}, 0), upright(0, away + 0.37, 0, {8.0, 0.1, 2.6}, 0)};
+        for (OrientedBox& box : scene.boxes) box.axes = turn * box.axes, box.center = about + turn * (box.center - about);
+        Context context;
+        const Vec3 up = observe(render(scene), {}, context).T_world_camera.rotation.row(2).transpose(), truth = camera_of(scene).rotation.row(2).transpose();
+        EXPECT_GT(up.dot(truth), 0.99) << away << " m, turned by " << yaw << ", tall " << tall;
+      }
+}
+
+/// Of a crate under a box turned across it no more than the corners of its top are seen.
+TEST(SteepViews, TheCornersThatLookOutUnderABoxTurnedAcrossAreOfOneCrate) {
+  int whole = 0;
+  for (const double turn : {35.0, 45.0}) {
+    Scene scene;
+    scene.height = 1.6;
+    scene.pitch = radians(68.0);
+    scene.boxes = {upright(0, 0.62, 0, {0.4, 0.36, 0.2}, 5), upright(0, 0.62, 0.2, {0.4, 0.3, 0.14}, 5.0 + turn)};
+    Context context;
+    const Completion result = complete_cuboids(render(scene), {}, context);
+    const OrientedBox& found = nearest(result.cuboids, scene.boxes[0].center).box;
+    whole += result.cuboids.size() == 2 && size_error(found, scene.boxes[0]) < 0.02;
+  }
+  EXPECT_EQ(whole, 2);
+}
+
+}  // namespace
+}  // namespace unseen::cuboids::test
