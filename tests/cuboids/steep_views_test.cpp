@@ -43,5 +43,28 @@ TEST(SteepViews, TheCornersThatLookOutUnderABoxTurnedAcrossAreOfOneCrate) {
   EXPECT_EQ(whole, 2);
 }
 
+/// What stands on a black box seems to go down to the floor.
+TEST(SteepViews, WhatStandsOnSomethingThatWasNotMeasuredIsDoubted) {
+  Scene scene;
+  scene.boxes = {upright(0, 0.8, 0, {0.3, 0.25, 0.15}, 20), upright(0, 0.8, 0.15, {0.2, 0.15, 0.1}, 20)};
+  const auto doubts = [](const RgbdFrame& frame) {
+    Context context;
+    const Completion result = complete_cuboids(frame, {}, context);
+    const auto& warnings = result.summary.warnings;
+    return std::count_if(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("nothing was measured below") != std::string::npos; });
+  };
+  RgbdFrame frame = render(scene);
+  EXPECT_EQ(doubts(frame), 0);
+  const RigidTransform T = camera_of(scene);
+  for (int v = 0; v < scene.image_height; ++v)
+    for (int u = 0; u < scene.width; ++u) {
+      float& depth = frame.depth[static_cast<std::size_t>(v) * scene.width + u];
+      const OrientedBox& black = scene.boxes[0];
+      const Vec3 p = T * frame.camera.unproject(u, v, depth), off = (black.axes.transpose() * (p - black.center)).cwiseAbs() - black.half_size;
+      if (off.maxCoeff() < 0.008 && p.z() > 0.008) depth = 0.0f;
+    }
+  EXPECT_EQ(doubts(frame), 1);
+}
+
 }  // namespace
 }  // namespace unseen::cuboids::test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "cuboids/objects/slabs.h"
+#include "cuboids/search/doubts.h"
 #include "cuboids/search/hypotheses.h"
 #include "cuboids/search/trims.h"
 #include "cuboids/surfaces/depth_noise.h"
@@ -14,9 +14,6 @@
 
 namespace unseen::cuboids {
 namespace {
-
-constexpr double kMuchFree = 0.25;     // of a box; in that around a standing cylinder 21 % are free
-constexpr std::size_t kMostNamed = 6;
 
 /// Writes the chosen arrangement into the result.
 void describe(const Problem& problem, const std::vector<char>& held, const Arrangement& arrangement, Completion& result) {
@@ -66,39 +63,6 @@ void describe(const Problem& problem, const std::vector<char>& held, const Arran
     result.stability.margin = margin(structure.bodies, structure.contacts, problem.stable_residual);
     result.stability.friction_needed = friction_needed(structure.bodies, structure.contacts, problem.stable_residual);
   }
-}
-
-/// "3, 5, 8", or the first few of many.
-std::string first_of(const std::vector<std::string>& names) {
-  const std::size_t shown = std::min(names.size(), kMostNamed);
-  std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), ", "));
-  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
-/// Boxes around what is no box hold space that the camera saw free.
-void warn_of_free_space(const DepthView& view, const std::vector<double>& tolerance, const std::vector<Cuboid>& cuboids, Context& context) {
-  std::vector<std::pair<double, int>> free;
-  for (std::size_t i = 0; i < cuboids.size(); ++i)
-    if (const double share = 1.0 - filled_share(view, cuboids[i].box, tolerance[i]); share > kMuchFree) free.emplace_back(-share, cuboids[i].id);
-  if (free.empty()) return;
-  std::sort(free.begin(), free.end());
-  std::vector<std::string> named;
-  for (const auto& [share, id] : free) named.push_back(fmt::format("{} ({:.0f} %)", id, -100.0 * share));
-  context.warn("what was seen is no box, and its box holds space that was seen free: box " + first_of(named));
-}
-
-/// Contacts count within tolerance, but an engine that is given the boxes moves some until they touch.
-void warn_of_falls(const std::vector<char>& falls, double push, Completion& result, Context& context) {
-  std::vector<std::string> named;
-  for (std::size_t i = 0; i < result.cuboids.size(); ++i) {
-    if (!falls[result.supports.size() + i]) continue;
-    result.may_move.push_back(result.cuboids[i].id);
-    named.push_back(std::to_string(result.cuboids[i].id));
-  }
-  if (named.empty()) return;
-  context.warn(fmt::format("may not stay in its place in a physics engine, as it stands within the tolerance of its contacts only, or falls at a push of {} g: box {}",
-                           push, first_of(named)));
 }
 
 }  // namespace
@@ -180,6 +144,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   describe(ending.problem, ending.held, ending.arrangement, result);
   warn_of_falls(ending.falls, problem.push, result, context);
   warn_of_free_space(view, ending.problem.tolerance, result.cuboids, context);
+  warn_of_unmeasured(view, result.cuboids, context);
   summary.counts.emplace_back("cuboids", result.cuboids.size());
   summary.counts.emplace_back("contacts", result.contacts.size());
   if (result.cuboids.empty()) {
