@@ -55,7 +55,7 @@ struct Shown {
 double beyond_usual(double share, double usual) { return std::max(share - usual, 0.0) / (1.0 - usual); }
 
 double evidence_of(int rows, double share, double usual) {
-  if (share <= usual || usual >= 1.0) return 0.0;
+  if (share <= usual) return 0.0;
   return rows * (share * std::log(share / usual) + (share < 1.0 ? (1.0 - share) * std::log((1.0 - share) / (1.0 - usual)) : 0.0));
 }
 
