@@ -100,24 +100,8 @@ TEST(Seams, AreNotTheDoorsOfAWardrobe) {
 
 /// Less than 9 mm is a seam, more a strap, or a shadow.
 TEST(Seams, AreNotStraps) {
-  Scene near = wall(1, 1, {0.5, 0.3, 0.25});
-  near.focal = 1050;
-  near.width = 1280;
-  near.image_height = 960;
-  EXPECT_EQ(count_of(near, [](const Vec3& p, int) { return std::abs(p.x()) < 0.01 ? Color{0.1, 0.06, 0.03} : kBrown; }), 1u);
-}
-
-/// Neither is any piece of a row smaller than what counts as an object beside a large one.
-TEST(Seams, MakeNoCrumbs) {
-  Scene scene;
-  scene.height = 0.9;
-  scene.boxes = {upright(0, 2.2, 0, {1.6, 0.4, 0.9}, 0)};
-  for (int k = 0; k < 8; ++k) scene.boxes.push_back(upright(-0.14 + 0.04 * k, 1.6, 0, {0.04, 0.05, 0.03}, 0));
-  const std::vector<Cuboid> found = perceive(painted(scene, [](const Vec3& p, int) { return p.y() < 1.9 && near_any(std::remainder(p.x(), 0.04), {0.0}) ? kDark : kBrown; })).cuboids;
-  double width = 0;
-  for (const Cuboid& cuboid : found)
-    if (cuboid.box.center.y() < 1.9) width += 2.0 * cuboid.box.half_size.x();
-  EXPECT_NEAR(width, 0.32, 0.05);
+  const Scene carton = wall(1, 1, {0.5, 0.3, 0.25});
+  EXPECT_EQ(count_of(carton, [](const Vec3& p, int) { return std::abs(p.x()) < 0.01 ? Color{0.1, 0.06, 0.03} : kBrown; }), 1u);
 }
 
 }  // namespace
