@@ -3,7 +3,6 @@
 #include "cuboids/search/complete.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 #include "cuboids/search/doubts.h"
 #include "cuboids/search/hypotheses.h"
