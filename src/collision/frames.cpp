@@ -47,7 +47,7 @@ BodyState body_at(const SolvedImpact& impact, const Mat3& to_world, int o, bool 
   const State& state = impact.solution.fit.state;
   const StateT<double> s = values_of(problem, state);
   PointState<double> there{s.p[o], Vec3::Zero()};
-  if (problem.flies(o, after)) there = fly<double>({s.p[o], after ? s.v_after[o] : s.v[o]}, s.down * problem.gravity, problem.drag[o], time - s.time);
+  if (problem.flies(o, after)) there = fly<double>({s.p[o], after ? s.v_after[o] : s.v[o]}, s.down * problem.gravity, problem.resistance(o), time - s.time);
   const double mass = o == 0 ? 1.0 : s.mass_ratio;
   const Quat q = orientation_at(problem, state, o, after, time);
   BodyState body;

@@ -13,6 +13,7 @@
 #include "collision/doubts/vertical.h"
 #include "collision/shot_problem.h"
 #include "collision/solve/drag.h"
+#include "collision/solve/slowing.h"
 #include "core/linear.h"
 #include "unseen/core/quantile.h"
 
@@ -153,6 +154,7 @@ void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, c
   if (result.fits && !result.restitution && !several)
     context.warn("no confident restitution: the flights tell too little of it");
   const double by_drag = look_for_drag(shot, options, impacts, result, context);
+  add_doubt_of_slowing(impacts, result);
   check_down(shot, impacts, by_drag, result, context);
   doubt_shutter(shot, impacts, result, context);
 }

@@ -11,6 +11,7 @@
 #include "collision/one_surface.h"
 #include "collision/shot_problem.h"
 #include "collision/solve/drag.h"
+#include "collision/solve/slowing.h"
 #include "collision/solve/unknowns.h"
 #include "collision/split.h"
 
@@ -67,6 +68,7 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     context.progress(static_cast<double>(impacts.size()) / static_cast<double>(tracks.meetings.size()));
   }
   keep_one_surface(shot, options, tracks.noise, fps, impacts, context);
+  if (shot.gravity == 0.0 && !impacts.empty()) impacts = with_slowing(impacts, best_slowing(impacts));
   if (options.drag == "estimate" && !impacts.empty()) {
     impacts = with_drag(impacts, best_drag(impacts));
     std::erase_if(impacts, [](const SolvedImpact& impact) { return !impact.solution.fit.usable; });

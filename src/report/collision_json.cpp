@@ -68,6 +68,7 @@ std::string collision_json(const Reconstruction& r, const InputRecord& input, co
   json["bodies"] = list_of(r.bodies, [](const BodyResult& b, std::size_t) { return body_of(b); });
   json["energy"] = {{"before", number(r.energy_before)}, {"after", number(r.energy_after)}};
   json["drag"] = or_null(r.drag, number);
+  if (r.slowing) json["slowing"] = number(*r.slowing);
   json["terms"] = list_of(r.terms, [](const Term& t, std::size_t) -> Json {
     return {{"name", t.name}, {"residual", number(t.residual)}, {"weight", number(t.weight)}};
   });

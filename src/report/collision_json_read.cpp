@@ -144,6 +144,7 @@ Reconstruction parse_collision_result(const std::string& text, const std::string
   r.energy_before = json["energy"]["before"].number(0);
   r.energy_after = json["energy"]["after"].number(0);
   r.drag = read_number_or_null(json["drag"]);
+  if (json.has("slowing")) r.slowing = json["slowing"].number(0);
   r.reprojection_rms = json["reprojection_rms"].number(0);
   r.held_out_rms = json["held_out_rms"].number(0);
   for (const JsonField& field : json["terms"].list())

@@ -97,6 +97,7 @@ void add_facts(SceneBuilder& scene, const Reconstruction& r) {
   if (r.reprojection_rms > 0) add_fact(scene, "reprojection", fmt::format("{:.2f} px", r.reprojection_rms), "How far the solved paths are from what was tracked");
   if (r.held_out_rms > 0) add_fact(scene, "held-out frames", fmt::format("{:.2f} px", r.held_out_rms), "The same in frames that the solution was not shown");
   if (r.drag) add_fact(scene, "drag", fmt::format("{:.4g} 1/m", *r.drag), "Deceleration by air, of the speed squared");
+  if (r.slowing) add_fact(scene, "slowed by", fmt::format("{:.3f} m/s²", *r.slowing), "Friction of what the bodies slide on, estimated");
 }
 
 /// What flies, not the camera that saw it from afar.

@@ -41,7 +41,7 @@ Shot shot_of(const char* second) {
   return shot;
 }
 
-PointState<double> flown(const PointState<double>& from, double dt, double drag) { return fly<double>(from, Vec3(0, 0, -9.81), drag, dt); }
+PointState<double> flown(const PointState<double>& from, double dt, double drag) { return fly<double>(from, Vec3(0, 0, -9.81), {drag}, dt); }
 
 /// A ball falls from 1.1 m and bounces on a floor, with this drag; `speed` (m/s) along it.
 Shot bouncing(double drag, double speed = 1.1) {

@@ -164,6 +164,7 @@ struct Reconstruction {
   double held_out_rms = 0;      ///< px, of what was held out
   std::optional<double> drag;   ///< Cd·A·ρ/(2m), 1/m, if drag took part
   Summary summary;
+  std::optional<double> slowing;  ///< m/s², by friction of what the bodies slide on, without gravity
 };
 
 }  // namespace unseen::collision

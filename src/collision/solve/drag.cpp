@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "collision/doubts/alternative.h"
 #include "collision/doubts/restitution.h"
 #include "collision/shot_problem.h"
+#include "collision/solve/shared_value.h"
 #include "unseen/core/error.h"
 
 namespace unseen::collision {
@@ -22,14 +22,8 @@ constexpr double kMostDrag = 1.0;    // 1/m: a table-tennis ball has 0.13
 constexpr double kTried = 0.1;       // 1/m: if it does not help, no drag does
 constexpr double kSaved = 9.0;       // χ² that drag must save to be told of, and
 constexpr double kSavedFreely = 36.0;  // where it is not known but fitted: lopsided regions bend flights a little, too
+constexpr double kLeastStep = 0.005, kStep = 0.2;  // 1/m, and of the drag: what restitutions are tried with
 constexpr double kRefuted = 25.0;    // χ² that known drag saves where a model without does not fit
-
-/// ½ χ² of all impacts.
-double cost_of(const std::vector<SolvedImpact>& impacts) {
-  double cost = 0.0;
-  for (const SolvedImpact& impact : impacts) cost += impact.solution.fit.usable ? impact.solution.fit.cost : std::numeric_limits<double>::infinity();
-  return cost;
-}
 
 /// The drag of both bodies if the first has `drag`: like shapes, so it goes with the cross-section over the mass.
 Drag shared_out(const SolvedImpact& impact, double drag) {
@@ -75,27 +69,6 @@ void warn_of_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& imp
   }
 }
 
-/// Adds what the doubt of a fitted drag leaves in the restitutions.
-void add_doubt_of_drag(const std::vector<SolvedImpact>& impacts, Reconstruction& result) {
-  constexpr double kLeastStep = 0.005, kStep = 0.2;  // 1/m; of the drag
-  const double drag = impacts.front().solution.problem.drag[0], step = kLeastStep + kStep * drag, middle = std::max(drag, step);
-  const auto at = [&](double value) { return with_drag(impacts, shared_out(impacts.front(), value)); };
-  const std::vector<SolvedImpact> less = at(middle - step), more = at(middle + step);
-  const double bend = (cost_of(more) - 2.0 * cost_of(at(middle)) + cost_of(less)) / (step * step);  // of ½ χ²
-  if (!std::isfinite(bend)) return;
-  const double sd = bend > 0.0 ? 1.0 / std::sqrt(bend) : kMostDrag;
-  const std::vector<Estimate> with_less = restitutions_of(less), with_more = restitutions_of(more);
-  const auto inflate = [&](Estimate& estimate, double from, double to) {
-    if (!(estimate.sd > 0.0)) return;
-    const double factor = std::hypot(1.0, sd * (to - from) / (2.0 * step) / estimate.sd);
-    estimate.low = std::max(0.0, estimate.value - factor * (estimate.value - estimate.low));
-    estimate.high = std::min(1.0, estimate.value + factor * (estimate.high - estimate.value));
-    estimate.sd *= factor;
-  };
-  for (std::size_t k = 0; k < impacts.size(); ++k) inflate(result.impacts[k].restitution, with_less[k].value, with_more[k].value);
-  if (result.restitution) inflate(*result.restitution, pooled(with_less).value, pooled(with_more).value);
-}
-
 }  // namespace
 
 void check_drag(const Shot& shot, const Options& options, const std::array<Solid, 2>& solids) {
@@ -114,27 +87,14 @@ std::vector<SolvedImpact> with_drag(std::vector<SolvedImpact> impacts, const Dra
 }
 
 Drag best_drag(const std::vector<SolvedImpact>& impacts) {
-  constexpr int kRounds = 20;
-  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
-  const auto cost = [&](double drag) { return cost_of(with_drag(impacts, shared_out(impacts.front(), drag))); };
-  double low = 0.0, high = kMostDrag;
-  double a = high - ratio * (high - low), b = low + ratio * (high - low), cost_a = cost(a), cost_b = cost(b);
-  for (int i = 0; i < kRounds; ++i) {
-    if (cost_a < cost_b) {
-      high = b, b = a, cost_b = cost_a;
-      cost_a = cost(a = high - ratio * (high - low));
-    } else {
-      low = a, a = b, cost_a = cost_b;
-      cost_b = cost(b = low + ratio * (high - low));
-    }
-  }
-  return shared_out(impacts.front(), 0.5 * (low + high));
+  return shared_out(impacts.front(), likeliest_value([&](double drag) { return with_drag(impacts, shared_out(impacts.front(), drag)); }, kMostDrag));
 }
 
 double look_for_drag(const Shot& shot, const Options& options, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {
   const Problem& problem = impacts.front().solution.problem;
   if (problem.planar) return 0.0;
-  if (options.drag == "estimate") add_doubt_of_drag(impacts, result);
+  if (options.drag == "estimate")
+    add_doubt([&](double drag) { return with_drag(impacts, shared_out(impacts.front(), drag)); }, {problem.drag[0], kMostDrag, kLeastStep + kStep * problem.drag[0]}, impacts, result);
   if (options.drag != "off") return 0.0;
   const double none = cost_of(with_drag(impacts, {0.0, 0.0}));
   const std::optional<Drag> known = known_drag(shot, impacts.front()), drag = known ? known : likely_drag(impacts, none);

@@ -8,6 +8,7 @@
 
 #include "collision/orientations/orientations.h"
 #include "collision/solve/contact.h"
+#include "collision/solve/flight.h"
 #include "collision/solve/mass_properties.h"
 #include "collision/solve/terms.h"
 #include "unseen/collision/types.h"
@@ -81,7 +82,9 @@ struct Problem {
   bool scattered = true;               ///< each orientation was seen on its own, so that their scatter tells their noise
   bool friction = true;
   Terms terms;
+  double slowing = 0;  ///< m/s², by friction of what all slide on, where it is planar
 
+  Resistance resistance(int body) const { return {drag[body], slowing}; }
   double inverse_mass(double ratio) const { return fixed ? 0.0 : 1.0 / ratio; }
   /// Whether a body is in free flight before, or after, the impact.
   bool flies(int body, bool after) const { return after || !rests[body]; }

@@ -34,7 +34,7 @@ std::vector<Vec3T<T>> flown(const Problem& problem, int body, bool after, const 
   std::vector<Vec3T<T>> places;
   places.reserve(times.size());
   for (const double next : times) {
-    if (problem.flies(body, after)) now = fly<T>(now, g, T(problem.drag[body]), T(next) - time);
+    if (problem.flies(body, after)) now = fly<T>(now, g, problem.resistance(body), T(next) - time);
     time = T(next);
     places.push_back(now.p);
     if (value_of(now.p.z()) < kNearest) places.back().z() = T(kNearest);

@@ -120,7 +120,7 @@ template <class T>
 Vec3T<T> position_at(const Problem& problem, const StateT<T>& s, int o, bool after, double time) {
   if ((o == 1 && problem.fixed) || !problem.flies(o, after)) return s.p[o];
   const PointState<T> start{s.p[o], after ? s.v_after[o] : s.v[o]};
-  return fly<T>(start, s.down * T(problem.gravity), T(problem.drag[o]), T(time) - s.time).p;
+  return fly<T>(start, s.down * T(problem.gravity), problem.resistance(o), T(time) - s.time).p;
 }
 
 /// How body `o` is turned at `time`.

@@ -159,7 +159,7 @@ Cast cast_of(const StagePlan& plan, Context& context) {
 
 StageState flown(const CastActor& actor, const StageState& from, double gravity, double time) {
   const double dt = time - from.time;
-  const PointState<double> end = fly<double>({from.p, from.v}, Vec3(0, 0, -gravity), 0.0, dt);
+  const PointState<double> end = fly<double>({from.p, from.v}, Vec3(0, 0, -gravity), {}, dt);
   return {time, end.p, end.v, from.h, turned(from.q, from.h, actor.actor.inertia, dt)};
 }
 
