@@ -147,6 +147,28 @@ TEST(Hygiene, RepeatsOfAConversionAreFoundAndTheOthersSpacedEvenly) {
   EXPECT_FALSE(share_out_times(found, holed));  // uneven stamps tell better
 }
 
+TEST(Hygiene, WhatStandsStillBeforeAndAfterItMovesRepeatsNothing) {
+  std::vector<double> change(60, 0.001), light(60, 100.0);
+  for (std::size_t k = 20; k < 40; ++k) change[k] = 0.5;
+  change[30] = 0.0;
+  const Repeats found = find_repeats(change, light);
+  for (std::size_t k = 0; k + 1 < change.size(); ++k) EXPECT_EQ(found.doubled[k], k == 30) << k;
+}
+
+// A lamp at 100 Hz before 120 frames a second: between two of them it may not change.
+TEST(Hygiene, LightThatStandsStillForAFrameRepeatsNothingWhereSomethingMoves) {
+  std::vector<double> change, light, moved;
+  for (int k = 0; k < 60; ++k) {
+    light.push_back(100.0 + 2.0 * std::cos(2.0 * kPi * (k + 0.5) / 6.0));
+    change.push_back(k == 0 ? 0.0 : std::abs(light[k] - light[k - 1]) + 0.02);
+    moved.push_back(k == 0 ? 0.0 : 0.05);
+  }
+  moved[31] = change[31] = 0.0;
+  const Repeats found = find_repeats(change, light, moved);
+  EXPECT_EQ(std::count(found.doubled.begin(), found.doubled.end(), 1), 1);
+  EXPECT_TRUE(found.doubled[31]);
+}
+
 /// Changes of 120 frames by their phase in a period.
 std::vector<double> changes_by_phase(const std::vector<double>& phases) {
   Random random(2);

@@ -52,8 +52,9 @@ std::optional<Drag> likely_drag(const std::vector<SolvedImpact>& impacts, double
   return shared_out(impacts.front(), best);
 }
 
-/// Says what the air may do to the restitution of bodies whose masses nobody gave, if they may be light and it is more than the interval tells.
-void warn_of_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impacts, double none, const Reconstruction& result, Context& context) {
+/// What the air may do to the restitution of bodies whose masses nobody gave, if they may be light and it is more than the interval tells: a little is in the interval, more is said.
+void doubt_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impacts, double none, Reconstruction& result, Context& context) {
+  constexpr double kLittle = 0.01;
   if (!result.restitution || std::any_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& body) { return body.mass.has_value(); })) return;
   for (const double density : {320.0, 160.0, 80.0}) {  // kg/m³: of a tennis ball, and down to a basketball's or a table-tennis ball's
     Shot light = shot;
@@ -64,6 +65,11 @@ void warn_of_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& imp
     if (!(2.0 * (none - cost_of(solved)) > -kSaved)) return;  // not so light
     const double c = pooled(restitutions_of(solved)).value;
     if (c >= result.restitution->low && c <= result.restitution->high) continue;
+    if (std::abs(c - result.restitution->value) < kLittle) {
+      result.restitution->low = std::min(result.restitution->low, c);
+      result.restitution->high = std::max(result.restitution->high, c);
+      continue;
+    }
     context.warn(fmt::format("no mass is given, so that drag of the air is left out: c would be {:.3f} if the density were {:.0f} kg/m³, as a {}ball's; give \"mass\" in kg", c, density, density > 200.0 ? "tennis " : density > 100.0 ? "foot" : "basket"));
     return;
   }
@@ -103,7 +109,7 @@ double look_for_drag(const Shot& shot, const Options& options, const std::vector
   if (std::isinf(saved)) return 0.0;
   if (!(saved > (known ? kSaved : kSavedFreely))) {
     if (known && saved > -kSaved) add_alternative("with drag of the air", solved, saved, result);  // the flights cannot tell
-    if (!known) warn_of_light_bodies(shot, impacts, none, result, context);
+    if (!known) doubt_light_bodies(shot, impacts, none, result, context);
     return saved;
   }
   const std::string who = problem.fixed ? shot.bodies[0].name : fmt::format("{} and {}", shot.bodies[0].name, shot.bodies[1].name);

@@ -84,7 +84,7 @@ Candidates candidates_of(const Footage& footage, const ShotCamera& camera, bool 
       if (spheres && !disc) c.round = std::min(1.0, r.diameter / r.circle);
       c.color = r.color;
       c.colored = true;
-      c.whole = !r.at_border && (spheres ? !r.covered || disc : !r.clipped);
+      c.whole = !r.at_border && (spheres ? !r.covered || disc || is_nearly_whole(r) : !r.clipped);
       c.shadow = is_shadow(r, footage.regions[k], dark);
       c.region = static_cast<int>(i);
       candidates[k].push_back(c);

@@ -129,6 +129,8 @@ bool is_disc(const Region& region) {
   return region.circle >= kSmallestDisc && !region.at_border && region.area > kWhole * 0.25 * kPi * region.circle * region.circle;
 }
 
+bool is_nearly_whole(const Region& region) { return !region.at_border && region.area > kMissing * 0.25 * kPi * region.circle * region.circle; }
+
 std::optional<Disc> covered_disc(const Region& region, const std::vector<double>& wholes) {
   if (region.circle < kSmallestDisc || region.mask.empty() || region.at_border || wholes.empty()) return std::nullopt;
   const std::vector<Vec2> outline = outline_of(region);

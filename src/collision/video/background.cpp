@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "collision/video/lasting.h"
+#include "collision/video/mask_shape.h"
 #include "collision/video/resting.h"
 #include "collision/video/worst_channel.h"
 #include "unseen/core/quantile.h"
@@ -70,6 +71,30 @@ cv::Mat noise_of(const cv::Mat& deviation) {
   return cv::max(noise, kLeastNoise);
 }
 
+/// Noise of what was taken out of a picture, at its border too: as around it, for frames were compared with what is gone.
+void take_from_around(const cv::Mat& gone, cv::Mat& noise) {
+  constexpr int kBorder = 9, kAround = 31;  // px, of discs
+  cv::Mat parts, labels, stats, centers;
+  cv::dilate(gone, parts, disc(kBorder));
+  const int count = cv::connectedComponentsWithStats(parts, labels, stats, centers, 8);
+  for (int i = 1; i < count; ++i) {
+    const cv::Rect part(stats.at<int>(i, cv::CC_STAT_LEFT), stats.at<int>(i, cv::CC_STAT_TOP), stats.at<int>(i, cv::CC_STAT_WIDTH), stats.at<int>(i, cv::CC_STAT_HEIGHT));
+    const cv::Rect box = cv::Rect(part.x - kAround, part.y - kAround, part.width + 2 * kAround, part.height + 2 * kAround) & cv::Rect({0, 0}, noise.size());
+    const cv::Mat own = labels(box) == i;
+    cv::Mat around, here = noise(box);
+    cv::dilate(own, around, disc(kAround));
+    around &= ~parts(box);
+    std::vector<float> values;
+    for (int y = 0; y < box.height; ++y)
+      for (int x = 0; x < box.width; ++x)
+        if (around.at<unsigned char>(y, x)) values.push_back(here.at<float>(y, x));
+    if (values.empty()) continue;
+    cv::Mat less;
+    cv::min(here, median(std::move(values)), less);
+    less.copyTo(here, own);
+  }
+}
+
 }  // namespace
 
 void FrameSample::add(const cv::Mat& frame) {
@@ -126,7 +151,9 @@ Background find_background(const std::vector<cv::Mat>& frames, const Context& co
   background.picture = median_picture(even, &deviation, context);
   restore_lasting(even, background.picture, deviation, context);
   background.noise = noise_of(deviation);
+  const cv::Mat before = background.picture.clone();
   remove_resting(even, background.noise, background.picture, context);
+  take_from_around(worst_difference(background.picture, before) > 0, background.noise);
   return background;
 }
 

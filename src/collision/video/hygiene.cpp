@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "unseen/core/quantile.h"
@@ -100,10 +101,19 @@ Period shortest_period(const std::vector<double>& share) {
   return {};
 }
 
-/// Frames in which next to nothing changes.
-std::vector<char> doubled_frames(const std::vector<double>& change) {
+/// What changes most in a frame nearby, on the side where that is less: before what moves sets out, and after it came to rest, nothing repeats.
+double change_on_both_sides(const std::vector<double>& change, int frame) {
+  const auto at = [&](int k) { return change.begin() + std::clamp(k, 1, static_cast<int>(change.size())); };
+  const auto most = [](auto begin, auto end) { return begin == end ? std::numeric_limits<double>::max() : *std::max_element(begin, end); };
+  const double before = most(at(frame - kNeighbours), at(frame)), after = most(at(frame + 1), at(frame + 1 + kNeighbours));
+  return change.size() > 2 ? std::min(before, after) : 0.0;
+}
+
+/// Frames in which next to nothing changes, nor moves where that is known: light that flickers may stand still for one.
+std::vector<char> doubled_frames(const std::vector<double>& change, const std::vector<double>& moved) {
   std::vector<char> doubled(change.size(), 0);
-  for (int k = 1; k < static_cast<int>(change.size()); ++k) doubled[k] = change[k] < kRepeats * change_near(change, k);
+  for (int k = 1; k < static_cast<int>(change.size()); ++k)
+    doubled[k] = change[k] < kRepeats * change_on_both_sides(change, k) && (moved.empty() || moved[k] <= kRepeats * change_on_both_sides(moved, k));
   return doubled;
 }
 
@@ -164,7 +174,7 @@ bool lasts_as_announced(const std::vector<double>& stamps, int announced, double
 }
 
 Repeats find_repeats(const std::vector<double>& change, const std::vector<double>& brightness, const std::vector<double>& moved) {
-  Repeats repeats{doubled_frames(change), {}, 1.0};
+  Repeats repeats{doubled_frames(change, moved), {}, 1.0};
   if (change.size() < 2 || flickers(change, brightness)) return repeats;
   Period period;
   if (!moved.empty()) period = shortest_period(shares_of_neighbours(moved));
