@@ -34,6 +34,14 @@ TEST(Disc, TheRestOfACoveredOneIsFound) {
   EXPECT_FALSE(covered_disc(covered, {50, 51, 52}));  // nothing of that size was ever seen whole
 }
 
+TEST(Disc, WhatLiesOnSomethingIsNearlyWhole) {
+  const auto cut = [](double share) {  // of the diameter, from below
+    return region_of([=](double x, double y) { return std::hypot(x - 70.3, y - 80.6) < 40.0 && y < 120.6 - 80.0 * share; }, 80, 80);
+  };
+  EXPECT_TRUE(is_nearly_whole(cut(0.04)));
+  EXPECT_FALSE(is_nearly_whole(cut(0.2)));
+}
+
 TEST(Disc, WholeAndBlurredOnesAreNotChanged) {
   const Region whole = region_of([](double x, double y) { return std::hypot(x - 70.3, y - 80.6) < 40.0; }, 80, 81);
   EXPECT_TRUE(is_disc(whole));

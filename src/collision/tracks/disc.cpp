@@ -118,6 +118,21 @@ bool holds(const std::vector<Vec2>& outline, const Circle& circle) {
   return static_cast<double>(on) > kOn * count && static_cast<double>(outside) < kOutside * count && seen_in_a_row(seen);
 }
 
+/// The disc whose edge most of the outline is, with the rest inside; nothing if there is none.
+std::optional<Disc> disc_around(const Region& region) {
+  if (region.circle < kSmallestDisc || region.mask.empty() || region.at_border) return std::nullopt;
+  const std::vector<Vec2> outline = outline_of(region);
+  if (outline.size() < 16) return std::nullopt;
+  const double largest = kLargest * region.circle;
+  const Circle circle = best_circle(outline, largest);
+  if (circle.radius <= 0.0 || 2.0 * circle.radius > largest || !holds(outline, circle)) return std::nullopt;
+  constexpr double kHalfPixel = 0.5;  // the outline runs through the middles of the outermost pixels
+  return Disc{circle.center + Vec2(region.box.x, region.box.y), 2.0 * (circle.radius + kHalfPixel)};
+}
+
+/// Whether hardly anything of a disc is missing.
+bool is_most_of(const Region& region, const Disc& disc) { return region.area > kMissing * 0.25 * kPi * disc.diameter * disc.diameter; }
+
 bool known_size(double diameter, const std::vector<double>& wholes) {
   const auto from = std::lower_bound(wholes.begin(), wholes.end(), diameter / kAlikeDiameters), to = std::upper_bound(wholes.begin(), wholes.end(), diameter * kAlikeDiameters);
   return to - from >= kFewestAlike;
@@ -129,19 +144,14 @@ bool is_disc(const Region& region) {
   return region.circle >= kSmallestDisc && !region.at_border && region.area > kWhole * 0.25 * kPi * region.circle * region.circle;
 }
 
-bool is_nearly_whole(const Region& region) { return !region.at_border && region.area > kMissing * 0.25 * kPi * region.circle * region.circle; }
+bool is_nearly_whole(const Region& region) {
+  const std::optional<Disc> disc = disc_around(region);
+  return disc && is_most_of(region, *disc);
+}
 
 std::optional<Disc> covered_disc(const Region& region, const std::vector<double>& wholes) {
-  if (region.circle < kSmallestDisc || region.mask.empty() || region.at_border || wholes.empty()) return std::nullopt;
-  const std::vector<Vec2> outline = outline_of(region);
-  if (outline.size() < 16) return std::nullopt;
-  const double largest = kLargest * region.circle;
-  const Circle circle = best_circle(outline, largest);
-  if (circle.radius <= 0.0 || 2.0 * circle.radius > largest || !holds(outline, circle)) return std::nullopt;
-  constexpr double kHalfPixel = 0.5;  // the outline runs through the middles of the outermost pixels
-  const double diameter = 2.0 * (circle.radius + kHalfPixel);
-  if (region.area > kMissing * 0.25 * kPi * diameter * diameter || !known_size(diameter, wholes)) return std::nullopt;
-  return Disc{circle.center + Vec2(region.box.x, region.box.y), diameter};
+  const std::optional<Disc> disc = wholes.empty() ? std::nullopt : disc_around(region);
+  return disc && !is_most_of(region, *disc) && known_size(disc->diameter, wholes) ? disc : std::nullopt;
 }
 
 }  // namespace unseen::collision

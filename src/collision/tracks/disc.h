@@ -18,7 +18,7 @@ struct Disc {
 /// True if the region is a disc and nothing of it is missing or blurred.
 bool is_disc(const Region& region);
 
-/// Whether a region that something seems to cut is as good as whole: a ball that lies on something ends there, too.
+/// Whether a region that something seems to cut is nearly all of a disc: a ball that lies on something ends there, too.
 bool is_nearly_whole(const Region& region);
 
 /// The disc that a region is a part of: something covers the rest, or it is shaded and looks like the background. Nothing if hardly
