@@ -111,6 +111,19 @@ void doubt_labels(const Shot& shot, const Tracks& tracks, const SolvedImpact& im
   if (!sized) result.mass_ratio.reset();
 }
 
+/// Says why impacts are left out, or why the model does not fit: at the first one that it does not fit at, and at how many others. Whether there are any.
+bool warn_of_refused(const std::vector<SolvedImpact>& impacts, const Reconstruction& result, Context& context) {
+  std::size_t refused = 0;
+  for (const SolvedImpact& impact : impacts) refused += !impact.check.reasons.empty();
+  const std::string others = refused > 1 ? fmt::format(" (nor at {} other impact{})", refused - 1, refused == 2 ? "" : "s") : "";
+  for (std::size_t i = 0; i < impacts.size(); ++i) {
+    for (const std::string& reason : impacts[i].check.reasons)
+      context.warn(result.fits ? fmt::format("the impact at frame {:.1f} is left out: {}", result.impacts[i].frame, reason) : fmt::format("the model does not fit{}: {}", others, reason));
+    if (!result.fits && !impacts[i].check.reasons.empty()) break;
+  }
+  return refused > 0;
+}
+
 }  // namespace
 
 void warn_of_camera(const ShotCamera& camera, bool told, Context& context) {
@@ -145,10 +158,7 @@ void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, c
   check_parallel(shot, impacts.front().solution.problem.camera, tracks, context);
   const bool several = result.fixed.empty() && tracks.collisions_seen > 1;
   if (several) context.warn(fmt::format("{} collisions of free bodies were seen, the model is of one: cut the clip (\"frames\")", tracks.collisions_seen));
-  const bool refused = std::any_of(impacts.begin(), impacts.end(), [](const SolvedImpact& i) { return !i.check.reasons.empty(); });
-  for (std::size_t i = 0; i < impacts.size(); ++i)
-    for (const std::string& reason : impacts[i].check.reasons)
-      context.warn(result.fits ? fmt::format("the impact at frame {:.1f} is left out: {}", result.impacts[i].frame, reason) : "the model does not fit: " + reason);
+  const bool refused = warn_of_refused(impacts, result, context);
   if (!result.fits && !refused)
     context.warn("no confident restitution: it ends on a bound, 0 or 1");
   if (result.fits && !result.restitution && !several)

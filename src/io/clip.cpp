@@ -25,7 +25,7 @@ int asked_turn(const cv::VideoCapture& capture) {
 
 Clip::Clip(std::string path) : path_(std::move(path)), capture_(codecs().video_reader()) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path_, error)) throw InputError(path_, "video", "no such file", kExpectedVideo);
+  if (!std::filesystem::is_regular_file(path_, error)) throw InputError(path_, "video", std::filesystem::is_directory(path_, error) ? "a folder" : "no such file", kExpectedVideo);
   const QuietOpenCv quiet;
   bool open = false;
   try {

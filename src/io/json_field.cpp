@@ -49,7 +49,8 @@ nlohmann::json parse_json(const std::string& text, const std::string& source, co
   try {
     return nlohmann::json::parse(text, check);
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(source, "", "broken JSON (" + std::string(e.what()) + ")", expected);
+    const std::string what = e.what(), reason = what.substr(what.find("] ") == std::string::npos ? 0 : what.find("] ") + 2);  // without the library's number
+    throw InputError(source, path(), "broken JSON (" + reason + ")", expected);
   }
 }
 
@@ -161,8 +162,9 @@ std::optional<OptionInput> JsonField::option() const {
 }
 
 void JsonField::fail(const std::string& expected) const {
+  constexpr std::size_t kFew = 4;
   std::string found;
-  if (value_->is_array()) {
+  if (value_->is_array() && (value_->size() > kFew || std::any_of(value_->begin(), value_->end(), [](const auto& entry) { return !entry.is_primitive(); }))) {
     found = fmt::format("an array of {}", value_->size());
   } else if (value_->is_object()) {
     found = "an object";
