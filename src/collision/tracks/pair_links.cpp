@@ -118,7 +118,7 @@ std::ptrdiff_t count_alone(const Arc& arc, const Link& other, const Candidates& 
 
 Joint own_joint(const Link& link, double noise) { return join(link.curve_before, link.end, link.curve_after, link.begin, noise, link.diameter); }
 
-std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest) {
+std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest, double slack) {
   const double gap = std::max(kLongestFrames, longest);
   std::vector<Candidate> looks;
   for (const Arc& arc : arcs) looks.push_back(looks_of(arc));
@@ -130,7 +130,7 @@ std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double lo
       if (arcs[j].begin() < arcs[i].begin() + kLater || arcs[j].end() < arcs[i].end() + kLater || unlikeness(looks[i], looks[j]) > kUnlike) continue;
       Link link = link_of(arcs[i], arcs[j], noise);
       const Joint joint = own_joint(link, noise);
-      if (joint.apart > joint.tolerance) continue;
+      if (joint.apart > slack * joint.tolerance) continue;
       link.before = i;
       link.after = j;
       link.unlike = unlikeness(looks[i], looks[j]);
@@ -183,7 +183,8 @@ std::vector<Collision> find_collisions(const Shot& shot, const ShotCamera& camer
                                        double fps) {
   std::vector<Collision> found;
   for (const Evidence evidence : {Evidence::picture, Evidence::space}) {
-    const std::vector<Link> links = links_of(arcs, noise, (evidence == Evidence::picture ? kLongestGap : kFarthestGap) * fps);
+    const bool picture = evidence == Evidence::picture;
+    const std::vector<Link> links = links_of(arcs, noise, (picture ? kLongestGap : kFarthestGap) * fps, picture ? 1.0 : kBentSlack);
     for (std::size_t i = 0; i < links.size(); ++i)
       for (std::size_t j = i + 1; j < links.size(); ++j) {
         const Link &a = links[i], &b = links[j];

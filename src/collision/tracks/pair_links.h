@@ -38,8 +38,8 @@ std::ptrdiff_t count_alone(const Arc& arc, const Link& other, const Candidates& 
 /// Where a link alone is nearest to closed.
 Joint own_joint(const Link& link, double noise);
 
-/// Pairs of arcs that can be one body's flights before and after an impact, `longest` frame times apart at most.
-std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest);
+/// Pairs of arcs that can be one body's flights before and after an impact, `longest` frame times apart at most; their curves may end `slack` times as far apart as noise explains.
+std::vector<Link> links_of(const std::vector<Arc>& arcs, double noise, double longest, double slack = 1.0);
 
 /// The one time at which both links are nearest to closed; NaN if there is none that both allow.
 double common_time(const Link& a, const Link& b, double noise);
