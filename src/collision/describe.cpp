@@ -171,7 +171,7 @@ void describe(const Shot& shot, const Tracks& tracks, double fps, const std::vec
   for (const auto& [name, size] : first.solution.fit.terms) result.terms.push_back({name, size, 1.0});
   result.observability = observability(first, shot);
   if (problem.drag[0] > 0.0) result.drag = problem.drag[0];
-  if (problem.planar) result.slowing = problem.slowing;
+  if (result.fits && problem.planar && problem.drag[0] == 0.0) result.slowing = problem.slowing;
   result.frames = frame_poses(impacts, to_world, tracks, clock);
 }
 

@@ -68,7 +68,7 @@ std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& optio
     context.progress(static_cast<double>(impacts.size()) / static_cast<double>(tracks.meetings.size()));
   }
   keep_one_surface(shot, options, tracks.noise, fps, impacts, context);
-  if (shot.gravity == 0.0 && !impacts.empty()) impacts = with_slowing(impacts, best_slowing(impacts));
+  if (shot.gravity == 0.0 && options.drag == "off" && !impacts.empty()) impacts = slowed_by_table(std::move(impacts));
   if (options.drag == "estimate" && !impacts.empty()) {
     impacts = with_drag(impacts, best_drag(impacts));
     std::erase_if(impacts, [](const SolvedImpact& impact) { return !impact.solution.fit.usable; });

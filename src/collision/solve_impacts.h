@@ -13,7 +13,7 @@ namespace unseen::collision {
 
 /// Solves each meeting of the tracks from its centres alone; meetings that no start leads to are left out, as are those off another thing. What is fixed and has no normal
 /// counts as a level floor if the impulse is nearly vertical, as a plumb wall if it is nearly level. Sightings next to the impact change flights in `tracks`
-/// where that explains them better. With `drag` = "estimate", or without gravity, all impacts share the drag, or the slowing by a table, that explains them best.
+/// where that explains them better. With `drag` = "estimate", all impacts share the drag that explains them best; without gravity or drag, what a table slows them by.
 std::vector<SolvedImpact> solve_positions(const Shot& shot, const Options& options, const ShotCamera& camera, const std::array<Solid, 2>& solids,
                                           Tracks& tracks, double fps, Context& context);
 

@@ -50,7 +50,8 @@ nlohmann::json parse_json(const std::string& text, const std::string& source, co
     return nlohmann::json::parse(text, check);
   } catch (const nlohmann::json::exception& e) {
     const std::string what = e.what(), reason = what.substr(what.find("] ") == std::string::npos ? 0 : what.find("] ") + 2);  // without the library's number
-    throw InputError(source, path(), "broken JSON (" + reason + ")", expected);
+    const bool complete = dynamic_cast<const nlohmann::json::out_of_range*>(&e);  // a number that is too large; else nobody knows where the mistake is
+    throw InputError(source, complete ? path() : "", "broken JSON (" + reason + ")", expected);
   }
 }
 

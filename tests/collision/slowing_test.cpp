@@ -64,6 +64,51 @@ Shot sliding(double slowing) {
   return shot;
 }
 
+/// A puck that slides for long, off a cushion.
+Shot cushioned(double slowing, int frames) {
+  Shot shot;
+  shot.name = "cushion.shot.json";
+  shot.fps = 60;
+  shot.gravity = 0.0;
+  shot.camera.camera = {800, 800, 640, 360, 1280, 720};
+  shot.bodies.resize(2);
+  shot.bodies[0].name = "puck", shot.bodies[0].radius = kRadius;
+  shot.bodies[1].name = "cushion", shot.bodies[1].shape = Shape::fixed, shot.bodies[1].normal = Vec3(-1, 0, 0);
+  Random random(6);
+  PointState<double> puck{Vec3(-0.6, -0.1, 1.0), Vec3(1.1, 0.15, 0.0)};
+  for (int f = 0; f < frames; ++f) {
+    shot.observations.push_back({f, Vec2(shot.camera.camera.project(puck.p)) + 0.2 * Vec2(random.normal(), random.normal()), 800 * kRadius, 0});
+    constexpr int kSteps = 200;
+    for (int i = 0; i < kSteps; ++i) {
+      step(puck, slowing, 1.0 / (60.0 * kSteps));
+      if (puck.p.x() > 0.5 && puck.v.x() > 0.0) puck.v.x() *= -kBack;
+    }
+  }
+  return shot;
+}
+
+// Far back, a body that is slowed too much comes from far away: the search for the slowing must not be led astray by that.
+TEST(Slowing, OfALongFlightIsEstimated) {
+  for (const double slowing : {0.0, 0.15, 0.4}) {
+    Context context;
+    const Reconstruction r = reconstruct(cushioned(slowing, 150), {}, context);
+    ASSERT_TRUE(r.restitution && r.slowing) << slowing;
+    EXPECT_NEAR(*r.slowing, slowing, 0.02);
+    EXPECT_NEAR(r.restitution->value, kBack, 0.01) << slowing;
+  }
+}
+
+TEST(Slowing, IsLeftToTheAirWhereThatIsAskedFor) {
+  Shot shot = sliding(0.1);
+  Options options;
+  options.drag = "estimate";
+  Context context;
+  const Reconstruction r = reconstruct(shot, options, context);
+  EXPECT_FALSE(r.slowing);
+  ASSERT_TRUE(r.drag);
+  EXPECT_LT(*r.drag, 0.5);
+}
+
 TEST(Slowing, ByATableIsEstimated) {
   for (const double slowing : {0.0, 0.1, kSlowed}) {
     Context context;

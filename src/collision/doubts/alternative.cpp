@@ -35,13 +35,17 @@ std::vector<Estimate> restitutions_of(std::vector<SolvedImpact> impacts) {
   return each;
 }
 
-void add_alternative(const std::string& what, const std::vector<SolvedImpact>& solved, double saved, Reconstruction& result) {
+void widen_to_hold(const std::vector<SolvedImpact>& solved, Reconstruction& result) {
   const std::vector<Estimate> each = restitutions_of(solved);
-  const double pool = pooled(each).value, c = std::clamp(pool, 0.0, 1.0);
+  for (std::size_t k = 0; k < solved.size(); ++k) widen(result.impacts[k].restitution, each[k].value);
+  if (result.restitution) widen(*result.restitution, std::clamp(pooled(each).value, 0.0, 1.0));
+}
+
+void add_alternative(const std::string& what, const std::vector<SolvedImpact>& solved, double saved, Reconstruction& result) {
+  const double pool = pooled(restitutions_of(solved)).value, c = std::clamp(pool, 0.0, 1.0);
   if (!(std::abs(pool - c) < kSlack)) return;
   const bool outside = !result.restitution || c < result.restitution->low || c > result.restitution->high;
-  for (std::size_t k = 0; k < solved.size(); ++k) widen(result.impacts[k].restitution, each[k].value);
-  if (result.restitution) widen(*result.restitution, c);
+  widen_to_hold(solved, result);
   if (!(saved > kClearlyBetter || (outside && saved > -kHardlyWorse))) return;
   const double mass_ratio = solved.front().solution.problem.fixed ? 0.0 : solved.front().solution.fit.state.mass_ratio;
   result.ambiguous.push_back({fmt::format("{}: c = {:.2f}", what, c), c, mass_ratio, -saved});

@@ -55,6 +55,7 @@ std::optional<Drag> likely_drag(const std::vector<SolvedImpact>& impacts, double
 /// What the air may do to the restitution of bodies whose masses nobody gave, if they may be light and it is more than the interval tells: a little is in the interval, more is said.
 void doubt_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impacts, double none, Reconstruction& result, Context& context) {
   constexpr double kLittle = 0.01;
+  std::vector<SolvedImpact> lightest;
   if (!result.restitution || std::any_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& body) { return body.mass.has_value(); })) return;
   for (const double density : {320.0, 160.0, 80.0}) {  // kg/m³: of a tennis ball, and down to a basketball's or a table-tennis ball's
     Shot light = shot;
@@ -62,17 +63,17 @@ void doubt_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impac
     const std::optional<Drag> drag = known_drag(light, impacts.front());
     if (!drag) return;
     const std::vector<SolvedImpact> solved = with_drag(impacts, *drag);
-    if (!(2.0 * (none - cost_of(solved)) > -kSaved)) return;  // not so light
+    if (!(2.0 * (none - cost_of(solved)) > -kSaved)) break;  // not so light
     const double c = pooled(restitutions_of(solved)).value;
     if (c >= result.restitution->low && c <= result.restitution->high) continue;
     if (std::abs(c - result.restitution->value) < kLittle) {
-      result.restitution->low = std::min(result.restitution->low, c);
-      result.restitution->high = std::max(result.restitution->high, c);
+      lightest = solved;
       continue;
     }
     context.warn(fmt::format("no mass is given, so that drag of the air is left out: c would be {:.3f} if the density were {:.0f} kg/m³, as a {}ball's; give \"mass\" in kg", c, density, density > 200.0 ? "tennis " : density > 100.0 ? "foot" : "basket"));
     return;
   }
+  if (!lightest.empty()) widen_to_hold(lightest, result);
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ std::vector<SolvedImpact> with_drag(std::vector<SolvedImpact> impacts, const Dra
 }
 
 Drag best_drag(const std::vector<SolvedImpact>& impacts) {
-  return shared_out(impacts.front(), likeliest_value([&](double drag) { return with_drag(impacts, shared_out(impacts.front(), drag)); }, kMostDrag));
+  return shared_out(impacts.front(), likeliest_value([&](double drag) { return with_drag(impacts, shared_out(impacts.front(), drag)); }, 0.0, kMostDrag));
 }
 
 double look_for_drag(const Shot& shot, const Options& options, const std::vector<SolvedImpact>& impacts, Reconstruction& result, Context& context) {

@@ -17,14 +17,13 @@ double cost_of(const std::vector<SolvedImpact>& impacts) {
   return cost;
 }
 
-double likeliest_value(const SolvedWith& with, double most) {
+double likeliest_value(const SolvedWith& with, double low, double high) {
   constexpr int kRounds = 20;
   const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
   const auto cost = [&](double value) { return cost_of(with(value)); };
-  double low = 0.0, high = most;
   double a = high - ratio * (high - low), b = low + ratio * (high - low), cost_a = cost(a), cost_b = cost(b);
   for (int i = 0; i < kRounds; ++i) {
-    if (cost_a < cost_b) {
+    if (!(cost_b < cost_a)) {
       high = b, b = a, cost_b = cost_a;
       cost_a = cost(a = high - ratio * (high - low));
     } else {

@@ -15,8 +15,8 @@ using SolvedWith = std::function<std::vector<SolvedImpact>(double)>;
 /// ½ χ² of all impacts; infinite if one is not usable.
 double cost_of(const std::vector<SolvedImpact>& impacts);
 
-/// The value from 0 to `most` that explains the impacts best, by golden sections.
-double likeliest_value(const SolvedWith& with, double most);
+/// The value from `low` to `high` that explains the impacts best, by golden sections.
+double likeliest_value(const SolvedWith& with, double low, double high);
 
 /// A value that was fitted: from 0 to `most`; `step`: what it is varied by to see what follows; `systematic`: what it is off by whatever the noise.
 struct FittedValue {

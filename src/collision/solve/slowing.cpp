@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
+#include <map>
 
 #include "collision/solve/shared_value.h"
 #include "collision/solve/solve.h"
@@ -12,30 +12,9 @@
 namespace unseen::collision {
 namespace {
 
-constexpr double kMost = 3.0;  // m/s²: a friction of 0.3
-
-SolvedWith any_slowing(const std::vector<SolvedImpact>& impacts) {
-  return [&](double slowing) { return with_slowing(impacts, slowing); };
-}
-
-/// What regions that are lopsided, by half of what they may be, bend the longest flight by, m/s².
-double bend_of_lopsided(const Problem& problem) {
-  if (!problem.filmed) return 0.0;
-  std::array<std::array<double, 2>, 4> ends;  // of the two bodies' flights before and after, s
-  ends.fill({std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
-  for (const PointObservation& p : problem.points) {
-    auto& [first, last] = ends[static_cast<std::size_t>(2 * p.body + p.after)];
-    first = std::min(first, p.time), last = std::max(last, p.time);
-  }
-  double least = kMost;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const double length = ends[k][1] - ends[k][0];
-    if (length > 0.0) least = std::min(least, 8.0 * 0.5 * kLopsided * problem.solids[k / 2].mass.extent / (length * length));  // the sagitta of a parabola is 1/8 of that
-  }
-  return least;
-}
-
-}  // namespace
+constexpr double kMost = 6.0;         // m/s²: a friction of 0.6
+constexpr double kLeast = 0.005;      // m/s²: what is tried first
+constexpr double kFewestPixels = 10;  // of a flight's way: less tells of no slowing
 
 std::vector<SolvedImpact> with_slowing(std::vector<SolvedImpact> impacts, double slowing) {
   for (SolvedImpact& impact : impacts) {
@@ -45,12 +24,46 @@ std::vector<SolvedImpact> with_slowing(std::vector<SolvedImpact> impacts, double
   return impacts;
 }
 
-double best_slowing(const std::vector<SolvedImpact>& impacts) { return likeliest_value(any_slowing(impacts), kMost); }
+/// What regions that are lopsided, by half of what they may be, bend the longest flight of an impact by, m/s².
+double bend_of_lopsided(const Problem& problem) {
+  if (!problem.filmed) return 0.0;
+  std::map<std::pair<int, bool>, std::array<const PointObservation*, 2>> flights;  // first and last sighting
+  for (const PointObservation& p : problem.points) {
+    auto& [first, last] = flights.try_emplace({p.body, p.after}, std::array{&p, &p}).first->second;
+    if (p.time < first->time) first = &p;
+    if (p.time > last->time) last = &p;
+  }
+  double least = kMost;
+  for (const auto& [flight, ends] : flights) {
+    const double length = ends[1]->time - ends[0]->time;
+    if ((ends[1]->pixel - ends[0]->pixel).norm() < kFewestPixels || length <= 0.0) continue;
+    least = std::min(least, 8.0 * 0.5 * kLopsided * problem.solids[static_cast<std::size_t>(flight.first)].mass.extent / (length * length));  // the sagitta of a parabola is 1/8 of that
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<SolvedImpact> slowed_by_table(std::vector<SolvedImpact> impacts) {
+  std::vector<SolvedImpact> best = std::move(impacts);
+  double low = 0.0, high = kLeast, slowing = 0.0;
+  for (; high <= kMost; high *= 2.0) {  // step by step, for a flight that is slowed far too much leads astray
+    std::vector<SolvedImpact> next = with_slowing(best, high);
+    if (!(cost_of(next) < cost_of(best))) break;
+    low = slowing, slowing = high, best = std::move(next);
+  }
+  const SolvedWith with = [&](double value) { return with_slowing(best, value); };
+  std::vector<SolvedImpact> finest = with(likeliest_value(with, low, high));
+  return cost_of(finest) < cost_of(best) ? finest : best;
+}
 
 void add_doubt_of_slowing(const std::vector<SolvedImpact>& impacts, Reconstruction& result) {
   constexpr double kLeastStep = 0.01, kStep = 0.2;  // m/s², and of the slowing
   const Problem& problem = impacts.front().solution.problem;
-  if (problem.planar) add_doubt(any_slowing(impacts), {problem.slowing, kMost, kLeastStep + kStep * problem.slowing, bend_of_lopsided(problem)}, impacts, result);
+  if (!problem.planar || problem.drag[0] > 0.0) return;
+  double systematic = kMost;
+  for (const SolvedImpact& impact : impacts) systematic = std::min(systematic, bend_of_lopsided(impact.solution.problem));
+  add_doubt([&](double slowing) { return with_slowing(impacts, slowing); }, {problem.slowing, kMost, kLeastStep + kStep * problem.slowing, systematic}, impacts, result);
 }
 
 }  // namespace unseen::collision

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "unseen/core/quantile.h"
@@ -16,6 +15,7 @@ namespace {
 
 constexpr int kNeighbours = 4;        // frames on either side that a frame's change is compared with
 constexpr double kRepeats = 0.08;     // share of the neighbours' change that a repeated frame may show
+constexpr int kLongestHold = 8;       // frames that repeat one
 constexpr double kUneven = 0.25;      // of a frame time
 constexpr double kTick = 1e-3;        // s: Matroska rounds stamps to it
 constexpr int kLongestPeriod = 12;    // frames
@@ -101,19 +101,19 @@ Period shortest_period(const std::vector<double>& share) {
   return {};
 }
 
-/// What changes most in a frame nearby, on the side where that is less: before what moves sets out, and after it came to rest, nothing repeats.
-double change_on_both_sides(const std::vector<double>& change, int frame) {
-  const auto at = [&](int k) { return change.begin() + std::clamp(k, 1, static_cast<int>(change.size())); };
-  const auto most = [](auto begin, auto end) { return begin == end ? std::numeric_limits<double>::max() : *std::max_element(begin, end); };
-  const double before = most(at(frame - kNeighbours), at(frame)), after = most(at(frame + 1), at(frame + 1 + kNeighbours));
-  return change.size() > 2 ? std::min(before, after) : 0.0;
-}
-
-/// Frames in which next to nothing changes, nor moves where that is known: light that flickers may stand still for one.
+/// Frames in which next to nothing changes, nor moves where that is known: light that flickers may stand still for one. What stands still for long, before it moves or after,
+/// repeats nothing.
 std::vector<char> doubled_frames(const std::vector<double>& change, const std::vector<double>& moved) {
+  const int count = static_cast<int>(change.size());
   std::vector<char> doubled(change.size(), 0);
-  for (int k = 1; k < static_cast<int>(change.size()); ++k)
-    doubled[k] = change[k] < kRepeats * change_on_both_sides(change, k) && (moved.empty() || moved[k] <= kRepeats * change_on_both_sides(moved, k));
+  for (int k = 1; k < count; ++k) {
+    const double least = kRepeats * change_near(change, k);
+    if (change[k] >= least || (!moved.empty() && moved[k] > kRepeats * change_near(moved, k))) continue;
+    int first = k, last = k;  // of the still frames
+    while (first > 1 && change[first - 1] < least) --first;
+    while (last + 1 < count && change[last + 1] < least) ++last;
+    doubled[k] = last - first < kLongestHold;
+  }
   return doubled;
 }
 
