@@ -144,7 +144,7 @@ TEST(Check, NamesWhatIsWrong) {
             "block 1");
   refused(std::string(100000, '['), "");
   refused("{\"data\": {\"graph\": {\"data\": {\"node\": {\"x\": {}}}}}}", "data.graph.data.node.x");
-  refused("{\"data\": 1e999}", "");
+  refused("{\"data\": 1e999}", "data");
   Context context;
   const io::Assembly tower = io::read_assembly_in_memory(kTower, "test.json");
   EXPECT_THROW(check(tower, {{"nobody"}, Vec3::UnitZ(), 0.7}), InputError);

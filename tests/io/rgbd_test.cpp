@@ -301,7 +301,7 @@ TEST_F(Rgbd, Intrinsics) {
 TEST_F(Rgbd, Hints) {
   refused_fields(R"("up": [0, -2, 0])", "up", {"length 2"});
   refused_fields(R"("up": [0, 0, 0])", "up", {"length 0"});
-  refused_fields(R"("up": [0, 1e999, 0])", "");
+  refused_fields(R"("up": [0, 1e999, 0])", "up");
   refused_fields(R"("up": [0, null, 0])", "up[1]");
   refused_fields(R"("up": "up")", "up");
   refused_fields(R"("supports": [{"normal": [0, 0, 0], "offset": 1, "kind": "desk"}])", "supports[0].normal",
