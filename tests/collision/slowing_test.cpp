@@ -31,14 +31,20 @@ TEST(Slowing, OfASlideIsThatOfSmallSteps) {
   }
 }
 
-/// Two pucks on a table that meet aslant, seen from 1 m above; sightings are off by 0.2 px.
-Shot sliding(double slowing) {
+/// A table without gravity across the view, for two bodies.
+Shot table() {
   Shot shot;
-  shot.name = "pucks.shot.json";
+  shot.name = "table.shot.json";
   shot.fps = 60;
   shot.gravity = 0.0;
   shot.camera.camera = {800, 800, 640, 360, 1280, 720};
   shot.bodies.resize(2);
+  return shot;
+}
+
+/// Two pucks on a table that meet aslant, seen from 1 m above; sightings are off by 0.2 px.
+Shot sliding(double slowing) {
+  Shot shot = table();
   shot.bodies[0].name = "one", shot.bodies[1].name = "other";
   for (Body& body : shot.bodies) body.radius = kRadius;
   Random random(4);
@@ -66,12 +72,7 @@ Shot sliding(double slowing) {
 
 /// A puck that slides for long, off a cushion.
 Shot cushioned(double slowing, int frames) {
-  Shot shot;
-  shot.name = "cushion.shot.json";
-  shot.fps = 60;
-  shot.gravity = 0.0;
-  shot.camera.camera = {800, 800, 640, 360, 1280, 720};
-  shot.bodies.resize(2);
+  Shot shot = table();
   shot.bodies[0].name = "puck", shot.bodies[0].radius = kRadius;
   shot.bodies[1].name = "cushion", shot.bodies[1].shape = Shape::fixed, shot.bodies[1].normal = Vec3(-1, 0, 0);
   Random random(6);
