@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "io/ply_header.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -98,6 +100,8 @@ class HeaderParser {
       fail("property", shown(line), "\"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
     property.is_list = list;
     property.name = fields.back();
+    for (const PlyProperty& other : header_.elements.back().properties)
+      if (other.name == property.name) fail("property", shown(line), fmt::format("each name once: there is a property {} before it", property.name));
     header_.elements.back().properties.push_back(std::move(property));
   }
 

@@ -71,7 +71,8 @@ struct Foreign {
 /// Nothing where the bytes are of none that is known here.
 Foreign foreign_format(std::string_view bytes) {
   static constexpr const char *kPicture = "PNG or JPEG: save it as one of these", *kMesh = "PLY, OBJ or STL: Blender exports them", *kUnpacked = "the unpacked file",
-                              *kCloud = "PLY, PCD, LAS, PTX or rows of numbers: CloudCompare and ParaView export some of them";
+                              *kCloud = "PLY, PCD, LAS, PTX or rows of numbers: CloudCompare and ParaView export some of them",
+                              *kFile = "the file itself: a download that failed may leave a page in its place";
   struct Known {
     std::string_view start;
     Foreign format;
@@ -83,6 +84,8 @@ Foreign foreign_format(std::string_view bytes) {
                                  {"ISO-10303-21", {"a STEP or IFC model", "an OBJ or STL of it"}},
                                  {"Kaydara FBX", {"an FBX scene", kMesh}},    {"PK\x03\x04", {"a ZIP archive", kUnpacked}},
                                  {"\x1f\x8b", {"a gzip archive", kUnpacked}}, {"7z\xbc\xaf", {"a 7z archive", kUnpacked}},
+                                 {"<!DOCTYPE", {"a web page", kFile}},        {"<!doctype", {"a web page", kFile}},
+                                 {"<html", {"a web page", kFile}},
                                  {"<", {"an XML file", kMesh}},               {"{", {"a JSON file", kMesh}}};
   for (const Known& known : kKnown)
     if (starts_with(bytes, known.start)) return known.format;

@@ -188,7 +188,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
       if (sink) sink(block.positions, plane);
     });
     for (std::size_t p = 0; p < sums.size(); ++p)
-      if (index_of[p] >= 0) count_points(points.moments(p), result.planes[index_of[p]]);
+      if (index_of[p] >= 0) count_points(points.moments(p), space, result.planes[index_of[p]]);
     for (const ArrangedPlane& p : result.planes) summary.counts[1].second += p.points;
     summary.counts[3].second = result.planes.size();
     warn_of_few(source, seen, space, !options.scale && !options.relative_scale, result, context);

@@ -21,6 +21,8 @@ Json plane_of(const planes::ArrangedPlane& p, std::size_t id, bool two_dimension
                {"area", number(p.area)},
                {"points", p.points},
                {"rms", number(p.rms)},
+               {"turned_deg", degrees_of(p.turned)},
+               {"turned_error_deg", degrees_of(p.turned_error)},
                {"tag", p.tag.empty() ? Json(nullptr) : Json(p.tag)},
                {"polygon", polygon_of(p.polygon)}};
   if (two_dimensional)

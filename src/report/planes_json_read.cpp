@@ -27,6 +27,8 @@ planes::ArrangedPlane read_plane(const JsonField& json, const planes::Arrangemen
   p.area = json["area"].number(0);
   p.points = json["points"].count();
   p.rms = json["rms"].number(0);
+  if (json.has("turned_deg")) p.turned = radians(json["turned_deg"].number(0, 90));
+  if (json.has("turned_error_deg")) p.turned_error = radians(json["turned_error_deg"].number(0, 90));
   if (!json["tag"].is_null()) p.tag = json["tag"].text();
   for (const JsonField& ring : json["polygon"].list()) {
     auto& points = p.polygon.emplace_back();

@@ -29,6 +29,8 @@ void add_table(SceneBuilder& scene, const Arrangement& a, const Vec3& shift) {
     row.push_back(number(plane.area));
     row.push_back(plane.points);
     row.push_back(number(flat ? plane.rms : 1000.0 * plane.rms));
+    row.push_back(number(degrees(plane.turned)));
+    row.push_back(number(degrees(plane.turned_error)));
     row.push_back(plane.frame);
     row.push_back(plane.direction);
     for (int axis = 0; axis < 3; ++axis)
@@ -42,6 +44,8 @@ void add_table(SceneBuilder& scene, const Arrangement& a, const Vec3& shift) {
   columns.push_back(column(flat ? "length" : "area", flat ? "" : "m²", 3));
   columns.push_back(column("points"));
   columns.push_back(column("rms", flat ? "" : "mm", flat ? -1 : 2));  // four digits of a drawing's
+  columns.push_back(column("turned", "°", 2));
+  columns.push_back(column("±", "°", 2));
   columns.push_back(column("frame"));
   columns.push_back(column("direction"));
   for (int axis = 0; axis < 3; ++axis)

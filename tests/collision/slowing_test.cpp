@@ -10,7 +10,7 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kSlowed = 0.25, kBack = 0.75, kRatio = 1.6;  // m/s²; restitution; mass of the second puck to that of the first
-constexpr double kRadius = 0.04;                              // m
+constexpr double kPuckRadius = 0.04;                              // m
 
 /// Small steps of what friction slows until it lies still, forwards.
 void step(PointState<double>& state, double slowing, double dt) {
@@ -46,20 +46,20 @@ Shot table() {
 Shot sliding(double slowing) {
   Shot shot = table();
   shot.bodies[0].name = "one", shot.bodies[1].name = "other";
-  for (Body& body : shot.bodies) body.radius = kRadius;
+  for (Body& body : shot.bodies) body.radius = kPuckRadius;
   Random random(4);
   std::array<PointState<double>, 2> pucks{{{Vec3(-0.5, -0.1, 1.0), Vec3(0.9, 0.1, 0.0)}, {Vec3(0.5, 0.12, 1.0), Vec3(-0.8, -0.2, 0.0)}}};
   bool met = false;
   for (int f = 0; f < 72; ++f) {
     for (int o = 0; o < 2; ++o) {
       const Vec2 off(random.normal(), random.normal());
-      shot.observations.push_back({f, Vec2(shot.camera.camera.project(pucks[o].p)) + 0.2 * off, 800 * kRadius, o});
+      shot.observations.push_back({f, Vec2(shot.camera.camera.project(pucks[o].p)) + 0.2 * off, 800 * kPuckRadius, o});
     }
     constexpr int kSteps = 200;
     for (int i = 0; i < kSteps; ++i) {
       for (PointState<double>& puck : pucks) step(puck, slowing, 1.0 / (60.0 * kSteps));
       const Vec3 apart = pucks[0].p - pucks[1].p;
-      if (met || apart.norm() > 2.0 * kRadius) continue;
+      if (met || apart.norm() > 2.0 * kPuckRadius) continue;
       met = true;
       const Vec3 n = apart.normalized(), impulse = n * (-(1.0 + kBack) * n.dot(pucks[0].v - pucks[1].v) / (1.0 + 1.0 / kRatio));
       pucks[0].v += impulse;
@@ -73,12 +73,12 @@ Shot sliding(double slowing) {
 /// A puck that slides for long, off a cushion.
 Shot cushioned(double slowing, int frames) {
   Shot shot = table();
-  shot.bodies[0].name = "puck", shot.bodies[0].radius = kRadius;
+  shot.bodies[0].name = "puck", shot.bodies[0].radius = kPuckRadius;
   shot.bodies[1].name = "cushion", shot.bodies[1].shape = Shape::fixed, shot.bodies[1].normal = Vec3(-1, 0, 0);
   Random random(6);
   PointState<double> puck{Vec3(-0.6, -0.1, 1.0), Vec3(1.1, 0.15, 0.0)};
   for (int f = 0; f < frames; ++f) {
-    shot.observations.push_back({f, Vec2(shot.camera.camera.project(puck.p)) + 0.2 * Vec2(random.normal(), random.normal()), 800 * kRadius, 0});
+    shot.observations.push_back({f, Vec2(shot.camera.camera.project(puck.p)) + 0.2 * Vec2(random.normal(), random.normal()), 800 * kPuckRadius, 0});
     constexpr int kSteps = 200;
     for (int i = 0; i < kSteps; ++i) {
       step(puck, slowing, 1.0 / (60.0 * kSteps));

@@ -13,7 +13,7 @@
 namespace unseen::cuboids {
 namespace {
 
-OrientedBox upright(const Vec3& center, const Vec3& size) {
+OrientedBox standing(const Vec3& center, const Vec3& size) {
   return {center, Mat3::Identity(), size / 2};
 }
 
@@ -41,15 +41,15 @@ TEST(BoxOverlap, VolumeOfTheIntersectionAgreesWithSampling) {
 }
 
 TEST(BoxOverlap, KnownVolumes) {
-  const OrientedBox cube = upright({0, 0, 0}, {1, 1, 1});
+  const OrientedBox cube = standing({0, 0, 0}, {1, 1, 1});
   EXPECT_NEAR(intersection_volume(cube, cube), 1.0, 1e-12);  // all faces are shared
-  EXPECT_NEAR(intersection_volume(cube, upright({0.75, 0, 0}, {1, 1, 1})), 0.25, 1e-12);
-  EXPECT_NEAR(intersection_volume(cube, upright({0, 0, 0.2}, {0.2, 0.2, 0.2})), 0.008, 1e-12);
-  EXPECT_EQ(intersection_volume(cube, upright({1, 0, 0}, {1, 1, 1})), 0.0);
+  EXPECT_NEAR(intersection_volume(cube, standing({0.75, 0, 0}, {1, 1, 1})), 0.25, 1e-12);
+  EXPECT_NEAR(intersection_volume(cube, standing({0, 0, 0.2}, {0.2, 0.2, 0.2})), 0.008, 1e-12);
+  EXPECT_EQ(intersection_volume(cube, standing({1, 0, 0}, {1, 1, 1})), 0.0);
   OrientedBox turned = cube;
   turned.axes = Eigen::AngleAxisd(kPi / 4, Vec3::UnitZ()).toRotationMatrix();
   EXPECT_NEAR(intersection_volume(cube, turned), 2 * std::sqrt(2.0) - 2, 1e-12);  // a regular octagon
-  EXPECT_NEAR(intersection_over_union(cube, upright({0.5, 0, 0}, {1, 1, 1})), 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(intersection_over_union(cube, standing({0.5, 0, 0}, {1, 1, 1})), 1.0 / 3.0, 1e-12);
 }
 
 /// A block on the ground, its lower half hidden; a lid on it; a box beside.
@@ -63,7 +63,7 @@ struct Scene {
     add(1, {0, 0, 0.1}, {0.4, 0.3, 0.2});
     add(2, {0, 0, 0.25}, {0.2, 0.2, 0.1});
     add(3, {1, 0, 0.2}, {0.2, 0.2, 0.4});
-    result.cuboids[0].initial = upright({0, 0, 0.15}, {0.4, 0.3, 0.1});
+    result.cuboids[0].initial = standing({0, 0, 0.15}, {0.4, 0.3, 0.1});
     // The truth has another world, turned and moved; the camera connects the two.
     const RigidTransform T = {Eigen::AngleAxisd(0.3, Vec3::UnitZ()).toRotationMatrix(), {0.5, -0.2, 0}};
     truth.T_world_camera = T * result.T_world_camera;
@@ -92,7 +92,7 @@ struct Scene {
   void add(int id, const Vec3& center, const Vec3& size) {
     Cuboid cuboid;
     cuboid.id = id;
-    cuboid.box = cuboid.initial = upright(center, size);
+    cuboid.box = cuboid.initial = standing(center, size);
     result.cuboids.push_back(cuboid);
   }
 
@@ -150,15 +150,15 @@ TEST(EvaluateCuboids, AWrongKindAnInventedAndAMissingEdge) {
 
 TEST(EvaluateCuboids, TooLongCountsLikeTooShort) {
   Scene scene;
-  scene.result.cuboids[2].box = upright({1, 0, 0.25}, {0.2, 0.2, 0.5});
+  scene.result.cuboids[2].box = standing({1, 0, 0.25}, {0.2, 0.2, 0.5});
   EXPECT_NEAR(scene.score().sizes.completed, (8 + 0.75) / 9, 1e-12);
-  scene.result.cuboids[2].box = upright({1, 0, 0.15}, {0.2, 0.2, 0.3});
+  scene.result.cuboids[2].box = standing({1, 0, 0.15}, {0.2, 0.2, 0.3});
   EXPECT_NEAR(scene.score().sizes.completed, (8 + 0.75) / 9, 1e-12);
 }
 
 TEST(EvaluateCuboids, AMissingAndAnInventedBox) {
   Scene scene;
-  scene.result.cuboids[2].box = scene.result.cuboids[2].initial = upright({3, 0, 0.2}, {0.2, 0.2, 0.4});
+  scene.result.cuboids[2].box = scene.result.cuboids[2].initial = standing({3, 0, 0.2}, {0.2, 0.2, 0.4});
   const Evaluation e = scene.score();
   EXPECT_EQ(e.found, 2u);
   EXPECT_NEAR(e.sizes.completed, 6.0 / 9.0, 1e-12);
@@ -169,10 +169,10 @@ TEST(EvaluateCuboids, AMissingAndAnInventedBox) {
 TEST(EvaluateCuboids, TwoFixedPiecesStandForOneBox) {
   Scene scene;
   Cuboid& left = scene.result.cuboids[0];
-  left.box = left.initial = upright({-0.15, 0, 0.1}, {0.1, 0.3, 0.2});
+  left.box = left.initial = standing({-0.15, 0, 0.1}, {0.1, 0.3, 0.2});
   scene.add(4, {0.15, 0, 0.1}, {0.1, 0.3, 0.2});
-  scene.result.cuboids[0].box = upright({-0.10, 0, 0.1}, {0.2, 0.3, 0.2});
-  scene.result.cuboids[3].box = upright({0.10, 0, 0.1}, {0.2, 0.3, 0.2});
+  scene.result.cuboids[0].box = standing({-0.10, 0, 0.1}, {0.2, 0.3, 0.2});
+  scene.result.cuboids[3].box = standing({0.10, 0, 0.1}, {0.2, 0.3, 0.2});
   Scene::contact(scene.result.contacts, 1, 4, ContactKind::fixed);
   const Evaluation e = scene.score();
   EXPECT_EQ(e.found, 3u);
@@ -185,7 +185,7 @@ TEST(EvaluateCuboids, TwoFixedPiecesStandForOneBox) {
 
 TEST(EvaluateCuboids, HiddenPartHalfFilled) {
   Scene scene;
-  scene.result.cuboids[0].box = upright({0, 0, 0.125}, {0.4, 0.3, 0.15});
+  scene.result.cuboids[0].box = standing({0, 0, 0.125}, {0.4, 0.3, 0.15});
   // Below the shell of 1 cm: of 8 cm true hidden height, 4 are claimed, of which the last centimetre is shell.
   const HiddenPartScore score = *scene.score().hidden_part;
   EXPECT_NEAR(score.hidden, 0.38 * 0.28 * 0.08, 0.03 * 0.38 * 0.28 * 0.08 + 2e-4);

@@ -19,12 +19,12 @@ using test::statics_of;
 
 constexpr double kStands = 1e-6;
 
-RigidBox box(const Vec3& center, const Vec3& size, double density = 300.0) {
+RigidBox rigid_box(const Vec3& center, const Vec3& size, double density = 300.0) {
   return {{center, Mat3::Identity(), 0.5 * size}, density, -1, false};
 }
 
 Statics cube_on_cube(double ratio) {
-  return statics_of({{box({0, 0, 0.5}, {1, 1, 1}, 1.0), box({0, 0, 1.5}, {1, 1, 1}, ratio)}, {Plane{}}, 0.7});
+  return statics_of({{rigid_box({0, 0, 0.5}, {1, 1, 1}, 1.0), rigid_box({0, 0, 1.5}, {1, 1, 1}, ratio)}, {Plane{}}, 0.7});
 }
 
 double margin_of(const Statics& s) {
@@ -76,7 +76,7 @@ TEST(HeavyLoads, WhatIsPushedTooHardFallsByAMotionThatNothingBrakes) {
 TEST(HeavyLoads, CubeOnASmallOneTipsOverItsEdge) {
   for (const double size : {0.2, 0.1, 0.05, 0.03}) {
     const Statics s = statics_of(
-        {{box({0, 0, 0.5 * size}, {size, size, size}), box({0, 0, size + 0.5}, {1, 1, 1})}, {Plane{}}, 0.7});
+        {{rigid_box({0, 0, 0.5 * size}, {size, size, size}), rigid_box({0, 0, size + 0.5}, {1, 1, 1})}, {Plane{}}, 0.7});
     EXPECT_LT(balance(s.bodies, s.contacts).residual, kStands) << size;
     const double small = size * size * size;
     EXPECT_NEAR(margin_of(s), 0.5 * size * (1.0 + small) / (size + 0.5 + 0.5 * size * small), 2e-3) << size;
@@ -85,9 +85,9 @@ TEST(HeavyLoads, CubeOnASmallOneTipsOverItsEdge) {
 
 TEST(HeavyLoads, SlabOnFourSmallFeetSlips) {
   for (const double size : {0.1, 0.05, 0.02}) {
-    RigidScene scene{{box({0, 0, size + 0.25}, {1, 1, 0.5})}, {Plane{}}, 0.7};
+    RigidScene scene{{rigid_box({0, 0, size + 0.25}, {1, 1, 0.5})}, {Plane{}}, 0.7};
     for (const double x : {-0.4, 0.4})
-      for (const double y : {-0.4, 0.4}) scene.boxes.push_back(box({x, y, 0.5 * size}, {size, size, size}));
+      for (const double y : {-0.4, 0.4}) scene.boxes.push_back(rigid_box({x, y, 0.5 * size}, {size, size, size}));
     const Statics s = statics_of(scene);
     EXPECT_LT(balance(s.bodies, s.contacts).residual, kStands) << size;
     EXPECT_NEAR(margin_of(s), 0.7, 2e-3) << size;
@@ -96,7 +96,7 @@ TEST(HeavyLoads, SlabOnFourSmallFeetSlips) {
 
 TEST(HeavyLoads, TallStackTipsAtOneOverItsHeight) {
   RigidScene scene{{}, {Plane{}}, 0.7};
-  for (int i = 0; i < 100; ++i) scene.boxes.push_back(box({0, 0, 0.1 * i + 0.05}, {0.1, 0.1, 0.1}));
+  for (int i = 0; i < 100; ++i) scene.boxes.push_back(rigid_box({0, 0, 0.1 * i + 0.05}, {0.1, 0.1, 0.1}));
   EXPECT_NEAR(margin_of(statics_of(scene)), 0.01, 1.5e-3);
 }
 

@@ -27,11 +27,11 @@ PointCloud cloud_of(std::vector<Vec3> points) {
 }
 
 /// The object where T says, seen by a camera; its boxes are off by up to `off` (m).
-struct Scene {
+struct Completed {
   RgbdFrame frame;
   Completion completion;
 
-  Scene(const std::vector<OrientedBox>& object, const RigidTransform& T, double off) {
+  Completed(const std::vector<OrientedBox>& object, const RigidTransform& T, double off) {
     const std::vector<OrientedBox> boxes = moved(object, T);
     frame = photo_fixture::render(boxes, camera_pose()).frame;
     completion = photo_fixture::scene_of(boxes);
@@ -123,7 +123,7 @@ TEST(ScanCompletion, LaysTheChairWhereItStands) {
   const PointCloud model = cloud_of(samples(moved(chair(), T_model), 40000, 1));
   for (const double yaw : {0.35, -2.0}) {
     const RigidTransform T = upright(yaw, {0.1, 0.2, 0.0});
-    const Scene scene(chair(), T, 0.01);
+    const Completed scene(chair(), T, 0.01);
     Context context;
     const ScanCompletion found = complete_scan(scene.frame, scene.completion, model, {}, context);
     expect_found(found, T * T_model.inverse());
@@ -135,7 +135,7 @@ TEST(ScanCompletion, LaysTheChairWhereItStands) {
 
 TEST(ScanCompletion, LaysTheSofaWhereItStands) {
   const RigidTransform T = upright(0.3, {0.0, 0.4, 0.0});
-  const Scene scene(sofa(), T, 0.015);
+  const Completed scene(sofa(), T, 0.015);
   Context context;
   expect_found(complete_scan(scene.frame, scene.completion, cloud_of(samples(sofa(), 60000, 1)), {}, context), T);
 }
@@ -152,7 +152,7 @@ RgbdFrame fused(const RgbdFrame& image, const Vec3& viewpoint) {
 
 TEST(ScanCompletion, FindsTheSameInACloudSeenFromElsewhere) {
   const RigidTransform T = upright(0.35, {0.1, 0.2, 0.0});
-  const Scene scene(chair(), T, 0.01);
+  const Completed scene(chair(), T, 0.01);
   const PointCloud model = cloud_of(samples(chair(), 40000, 1));
   for (const Vec3& viewpoint : {Vec3(0, 0, 0), Vec3(5, 2, -1)}) {
     Context context;
@@ -163,7 +163,7 @@ TEST(ScanCompletion, FindsTheSameInACloudSeenFromElsewhere) {
 }
 
 TEST(ScanCompletion, SaysIfNothingIsAlike) {
-  const Scene scene(chair(), upright(0.3, {0, 0.2, 0}), 0.0);
+  const Completed scene(chair(), upright(0.3, {0, 0.2, 0}), 0.0);
   Context context;
   const PointCloud tower = cloud_of(samples({box_at({0, 0, 0}, {2.0, 1.6, 1.9})}, 5000, 1));
   const ScanCompletion found = complete_scan(scene.frame, scene.completion, tower, {}, context);
@@ -172,7 +172,7 @@ TEST(ScanCompletion, SaysIfNothingIsAlike) {
 }
 
 TEST(ScanCompletion, RefusesModelsThatAreNone) {
-  const Scene scene(chair(), upright(0.3, {0, 0.2, 0}), 0.0);
+  const Completed scene(chair(), upright(0.3, {0, 0.2, 0}), 0.0);
   Context context;
   EXPECT_THROW(complete_scan(scene.frame, scene.completion, {}, {}, context), InputError);
   std::vector<Vec3> millimetres = samples(chair(), 100, 1);

@@ -18,7 +18,7 @@ using test::statics_of;
 
 constexpr double kStable = 1e-6;
 
-RigidBox box(const Vec3& center, const Vec3& size, double density = 300.0) {
+RigidBox rigid_box(const Vec3& center, const Vec3& size, double density = 300.0) {
   return {{center, Mat3::Identity(), 0.5 * size}, density, -1, false};
 }
 
@@ -32,12 +32,12 @@ Vec3 tilted(double angle, double yaw = 0.0) {
 }
 
 TEST(Statics, FloatingBlockFallsWithItsWholeWeight) {
-  EXPECT_NEAR(residual_of({{box({0, 0, 1}, {0.08, 0.08, 0.08})}, {Plane{}}, 0.7}), 1.0, 1e-12);
+  EXPECT_NEAR(residual_of({{rigid_box({0, 0, 1}, {0.08, 0.08, 0.08})}, {Plane{}}, 0.7}), 1.0, 1e-12);
 }
 
 TEST(Statics, StandingStackIsExact) {
   RigidScene scene;
-  for (int i = 0; i < 12; ++i) scene.boxes.push_back(box({0.01 * (i % 2), 0, 0.1 * i + 0.05}, {0.2, 0.2, 0.1}));
+  for (int i = 0; i < 12; ++i) scene.boxes.push_back(rigid_box({0.01 * (i % 2), 0, 0.1 * i + 0.05}, {0.2, 0.2, 0.1}));
   EXPECT_LT(residual_of(scene), 1e-10);
 }
 
@@ -49,7 +49,7 @@ TEST(Statics, SlabSlipsAtTheAngleOfFrictionInEveryYaw) {
       for (const double off : {-0.1, 0.1}) {
         const double angle = slope + radians(off);
         const Mat3 rotation = Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix();
-        RigidBox slab = box({0, 0, 0}, {0.4, 0.25, 0.02});
+        RigidBox slab = rigid_box({0, 0, 0}, {0.4, 0.25, 0.02});
         slab.box.axes = rotation * Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
         slab.box.center = rotation * Vec3(0.1, 0.2, 0.01);
         const double residual = residual_of({{slab}, {Plane{rotation * Vec3::UnitZ(), 0.0}}, friction});
@@ -62,7 +62,7 @@ TEST(Statics, StackOfCubesTipsWhereItsCentreLeavesTheBase) {
   for (int n = 2; n <= 8; ++n) {
     RigidScene scene;
     scene.friction = 5.0;
-    for (int i = 0; i < n; ++i) scene.boxes.push_back(box({0, 0, 0.1 * i + 0.05}, {0.1, 0.1, 0.1}));
+    for (int i = 0; i < n; ++i) scene.boxes.push_back(rigid_box({0, 0, 0.1 * i + 0.05}, {0.1, 0.1, 0.1}));
     const double tips = std::atan(1.0 / n);
     EXPECT_LT(residual_of(scene, tilted(tips - radians(0.05))), kStable) << n;
     EXPECT_GT(residual_of(scene, tilted(tips + radians(0.05))), kStable) << n;
@@ -70,7 +70,7 @@ TEST(Statics, StackOfCubesTipsWhereItsCentreLeavesTheBase) {
 }
 
 TEST(Statics, JammedBlockNeedsFrictionThatMeasuredScenesDoNotGrant) {
-  RigidScene scene{{box({0, 0, 1}, {0.2, 0.2, 0.2})}, {{Vec3::UnitX(), -0.1}, {-Vec3::UnitX(), -0.1}}, 0.7};
+  RigidScene scene{{rigid_box({0, 0, 1}, {0.2, 0.2, 0.2})}, {{Vec3::UnitX(), -0.1}, {-Vec3::UnitX(), -0.1}}, 0.7};
   Statics s = statics_of(scene);
   EXPECT_LT(balance(s.bodies, s.contacts).residual, kStable);
   for (ContactPoint& c : s.contacts) c.friction = measured_friction(c.normal, c.friction);
@@ -85,10 +85,10 @@ RigidScene held_together(double beam_density) {
   RigidScene scene;
   scene.friction = 0.0;
   for (const double side : {-1.0, 1.0}) {
-    scene.boxes.push_back(box({side * 0.5, 0, 0.1}, {0.1, 0.1, 0.2}));   // pillar, outer edge at 0.55
-    scene.boxes.push_back(box({side * 0.6, 0, 0.21}, {0.4, 0.1, 0.02}));  // plank from 0.4 to 0.8
+    scene.boxes.push_back(rigid_box({side * 0.5, 0, 0.1}, {0.1, 0.1, 0.2}));   // pillar, outer edge at 0.55
+    scene.boxes.push_back(rigid_box({side * 0.6, 0, 0.21}, {0.4, 0.1, 0.02}));  // plank from 0.4 to 0.8
   }
-  scene.boxes.push_back(box({0, 0, 0.23}, {0.9, 0.1, 0.02}, beam_density));  // reaches 0.45
+  scene.boxes.push_back(rigid_box({0, 0, 0.23}, {0.9, 0.1, 0.02}, beam_density));  // reaches 0.45
   return scene;
 }
 
@@ -108,7 +108,7 @@ TEST(Statics, WholeStandsThoughEveryPairFalls) {
 TEST(Statics, WholeFallsThoughEveryPairStands) {  // Figure 2.2b: 3 blocks stand if each steps out by a third at most
   for (const double step : {0.33, 0.34, 0.45}) {
     RigidScene scene;
-    for (int i = 0; i < 3; ++i) scene.boxes.push_back(box({step * i, 0, 0.1 * i + 0.05}, {1, 1, 0.1}));
+    for (int i = 0; i < 3; ++i) scene.boxes.push_back(rigid_box({step * i, 0, 0.1 * i + 0.05}, {1, 1, 0.1}));
     EXPECT_EQ(residual_of(scene) < kStable, step < 1.0 / 3.0) << step;
     for (int i = 0; i < 2; ++i) {
       RigidScene pair{{scene.boxes[i], scene.boxes[i + 1]}, {}, 0.7};
@@ -119,7 +119,7 @@ TEST(Statics, WholeFallsThoughEveryPairStands) {  // Figure 2.2b: 3 blocks stand
 }
 
 TEST(Statics, FixedPartsAreOneBody) {
-  RigidScene scene{{box({0, 0, 0.1}, {0.2, 0.2, 0.2}), box({0.25, 0, 0.25}, {0.7, 0.2, 0.1})}, {Plane{}}, 0.7};
+  RigidScene scene{{rigid_box({0, 0, 0.1}, {0.2, 0.2, 0.2}), rigid_box({0.25, 0, 0.25}, {0.7, 0.2, 0.1})}, {Plane{}}, 0.7};
   EXPECT_GT(residual_of(scene), 0.01);
   scene.boxes[0].group = scene.boxes[1].group = 0;
   EXPECT_GT(residual_of(scene), 0.01);  // the centre of both is at 0.159
@@ -132,15 +132,15 @@ TEST(Statics, FixedPartsAreOneBody) {
 }
 
 TEST(Statics, MarginAndLeastFrictionOfABlock) {
-  const Statics slim = statics_of({{box({0, 0, 0.2}, {0.1, 0.3, 0.4})}, {Plane{}}, 0.7});
+  const Statics slim = statics_of({{rigid_box({0, 0, 0.2}, {0.1, 0.3, 0.4})}, {Plane{}}, 0.7});
   EXPECT_NEAR(margin(slim.bodies, slim.contacts, kStable), 0.25, 2e-3);
   EXPECT_EQ(friction_needed(slim.bodies, slim.contacts, kStable), 0.0);
-  const Statics flat = statics_of({{box({0, 0, 0.05}, {0.4, 0.3, 0.1})}, {Plane{}}, 0.7});
+  const Statics flat = statics_of({{rigid_box({0, 0, 0.05}, {0.4, 0.3, 0.1})}, {Plane{}}, 0.7});
   EXPECT_NEAR(margin(flat.bodies, flat.contacts, kStable), 0.7, 2e-3);
 
   const double slope = radians(20.0);
   const Mat3 rotation = Eigen::AngleAxisd(slope, Vec3::UnitX()).toRotationMatrix();
-  RigidBox slab = box(rotation * Vec3(0, 0, 0.01), {0.4, 0.3, 0.02});
+  RigidBox slab = rigid_box(rotation * Vec3(0, 0, 0.01), {0.4, 0.3, 0.02});
   slab.box.axes = rotation;
   const Statics s = statics_of({{slab}, {Plane{rotation * Vec3::UnitZ(), 0.0}}, 0.7});
   EXPECT_NEAR(friction_needed(s.bodies, s.contacts, kStable), std::tan(slope), 3e-3);
@@ -227,7 +227,7 @@ TEST(Statics, StartAndOrderDoNotMatter) {
 }
 
 TEST(Statics, EndsWhenAskedToStop) {
-  const Statics s = statics_of({{box({0, 0, 0.1}, {0.2, 0.2, 0.2})}, {Plane{}}, 0.7});
+  const Statics s = statics_of({{rigid_box({0, 0, 0.1}, {0.2, 0.2, 0.2})}, {Plane{}}, 0.7});
   std::stop_source source;
   Context context;
   context.stop = source.get_token();

@@ -12,11 +12,11 @@
 namespace unseen::interactions {
 namespace {
 
-Take take_of(int seed, int people) { return simulate(test::synth_options(seed, 8, people)).take; }
+Take simulated_take(int seed, int people) { return simulate(test::synth_options(seed, 8, people)).take; }
 
 TEST(MergeTakes, NumberFramesAndPeopleOn) {
-  const Take a = take_of(5001, 1), b = [&] {
-    Take other = take_of(5002, 2);
+  const Take a = simulated_take(5001, 1), b = [&] {
+    Take other = simulated_take(5002, 2);
     other.camera = a.camera;
     other.remarks = {"odd"};
     return other;
@@ -45,7 +45,7 @@ TEST(MergeTakes, NumberFramesAndPeopleOn) {
 }
 
 TEST(MergeTakes, OfOneTakeIsTheTakeWithItsPeopleTold) {
-  const Take a = take_of(5001, 1), all = merge_takes({a});
+  const Take a = simulated_take(5001, 1), all = merge_takes({a});
   ASSERT_EQ(all.detections.size(), a.detections.size());
   for (std::size_t i = 0; i < all.detections.size(); ++i) {
     EXPECT_EQ(all.detections[i].frame, a.detections[i].frame);
@@ -54,7 +54,7 @@ TEST(MergeTakes, OfOneTakeIsTheTakeWithItsPeopleTold) {
 }
 
 TEST(MergeTakes, TheCamerasPlaceMayStandInAnyOfThem) {
-  Take a = take_of(5001, 1), b = a;
+  Take a = simulated_take(5001, 1), b = a;
   a.up = std::nullopt;
   a.camera_height = std::nullopt;
   b.up = Vec3(0, -1, 0);
@@ -75,7 +75,7 @@ std::string refused(const std::vector<Take>& takes) {
 }
 
 TEST(MergeTakes, RefuseWhatIsNotOneCamera) {
-  Take a = take_of(5001, 1);
+  Take a = simulated_take(5001, 1);
   a.up = Vec3(0, -1, 0);
   a.camera_height = 1.7;
   const auto with = [&](const auto& change) {

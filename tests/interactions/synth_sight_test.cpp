@@ -9,7 +9,7 @@
 namespace unseen::interactions {
 namespace {
 
-SynthTake take_of(int seed, int people, double noise = 5) {
+SynthTake noisy_take_of(int seed, int people, double noise = 5) {
   SynthOptions options;
   options.seed = seed;
   options.people = people;
@@ -43,7 +43,7 @@ double closest(const Pose& pose, const Vec3& from, const Vec3& to) {
 TEST(SynthSight, HiddenJointsAreThoseBehindFurniture) {
   int hidden = 0, seen = 0;
   for (int seed = 0; seed < 4; ++seed) {
-    const Recording truth = take_of(seed, 1).truth;
+    const Recording truth = noisy_take_of(seed, 1).truth;
     const Vec3 eye = truth.T_world_camera.translation;
     for (std::size_t k = 0; k < truth.people[0].size(); k += 40)
       for (int j = 0; j < kJoints; ++j) {
@@ -61,7 +61,7 @@ TEST(SynthSight, HiddenJointsAreThoseBehindFurniture) {
 TEST(SynthSight, JointsAreHiddenByOtherPeopleToo) {
   int by_others = 0;
   for (int seed = 0; seed < 3; ++seed) {
-    const Recording truth = take_of(seed, 2).truth;
+    const Recording truth = noisy_take_of(seed, 2).truth;
     const Vec3 eye = truth.T_world_camera.translation;
     for (std::size_t k = 0; k < truth.people[0].size(); k += 8)
       for (const int who : {0, 1})
@@ -80,7 +80,7 @@ TEST(SynthSight, JointsAreHiddenByOtherPeopleToo) {
 
 TEST(SynthSight, TheCameraStandsAsPromised) {
   for (int seed = 0; seed < 30; ++seed) {
-    const SynthTake synth = take_of(seed, 1);
+    const SynthTake synth = noisy_take_of(seed, 1);
     const RigidTransform& T = synth.truth.T_world_camera;
     ASSERT_TRUE(T.is_rigid(1e-12));
     EXPECT_NEAR(T.translation.head<2>().norm(), 0, 1e-12);
@@ -111,7 +111,7 @@ TEST(SynthSight, NoiseAndConfidenceAreAsSaid) {
   const double noise = 6;
   Residuals visible, hidden;
   for (int seed = 0; seed < 25; ++seed) {
-    const SynthTake synth = take_of(seed, 1, noise);
+    const SynthTake synth = noisy_take_of(seed, 1, noise);
     const RigidTransform to_camera = synth.truth.T_world_camera.inverse();
     for (const Detection& d : synth.take.detections) {
       const RecordedFrame& f = synth.truth.people[0].at(static_cast<std::size_t>(d.frame));
@@ -139,7 +139,7 @@ TEST(SynthSight, LiftedPosesAreAboutRightWhereLimbsAreSeen) {
   double turned = 0;
   int bones = 0;
   for (int seed = 0; seed < 5; ++seed) {
-    const SynthTake synth = take_of(seed, 1);
+    const SynthTake synth = noisy_take_of(seed, 1);
     const Mat3 to_camera = synth.truth.T_world_camera.rotation.transpose();
     for (const Detection& d : synth.take.detections) {
       ASSERT_TRUE(d.local.has_value());
@@ -165,7 +165,7 @@ TEST(SynthSight, LiftedPosesAreAboutRightWhereLimbsAreSeen) {
 }
 
 TEST(SynthSight, AllPeopleAreDetectedInSomeOrder) {
-  const SynthTake synth = take_of(2, 3);
+  const SynthTake synth = noisy_take_of(2, 3);
   std::set<int> first;  // which true person is the first of its frame's list
   const RigidTransform to_camera = synth.truth.T_world_camera.inverse();
   int last = -1;

@@ -160,6 +160,7 @@ TEST(Sniff, ForeignFormatsAreNamedWithTheWayOut) {
                                                                                    {"  0\r\nSECTION\r\n  2\r\nHEADER\r\n", "a DXF drawing", "OBJ"},
                                                                                    {"<?xml version=\"1.0\"?><COLLADA/>", "an XML file", "OBJ"},
                                                                                    {"{\"asset\": {}}", "a JSON file", "OBJ"},
+                                                                                   {"<!doctype html>\n<html>", "a web page", "the file itself"},
                                                                                    {"ISO-10303-21;\nHEADER;\n", "a STEP or IFC model", "STL"},
                                                                                    {std::string("PK\3\4\0\0", 6), "a ZIP archive", "unpacked"}})
     for (const char* file : {"bad", "bad.txt"}) expect_read_error(bytes, file, {"content", name, way_out});

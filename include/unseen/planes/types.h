@@ -29,6 +29,7 @@ struct ArrangedPlane {
   std::string tag;                              ///< "floor", "ceiling", "wall", … or empty
   Polygon polygon;                              ///< empty in 2D
   std::optional<std::array<Vec3, 2>> segment;   ///< 2D only: its two ends
+  double turned = 0, turned_error = 0;          ///< rad, from the plane that its points fit best, and its standard error by their noise
 };
 
 /// A class of exactly parallel planes.

@@ -15,7 +15,7 @@ constexpr std::size_t kPlaces = 4;       // of a flight where the search starts
 constexpr double kFastest = 60.0;        // rad/s
 constexpr std::size_t kSeeds = 120;      // pairs that are refined, at each place
 constexpr std::size_t kBeam = 40;        // of those that are followed
-constexpr int kSteps = 5;                // of each refinement while the window grows
+constexpr int kStepsInGrowth = 5;        // of each refinement while the window grows
 constexpr std::size_t kSwapped = 4;      // motions, the best ones, that are tried with the body put the other way round
 constexpr double kAlike = 0.12;          // rad, at both ends of the flight
 
@@ -86,7 +86,7 @@ std::vector<Turning> grown(const SpinBody& body, const Camera& camera, const std
       keep_best(beam, body, from, to, kSeeds);
     }
     seeds = false;
-    for (Turning& t : beam) t = refined(t, body, camera, looks, begin, end, kSteps);
+    for (Turning& t : beam) t = refined(t, body, camera, looks, begin, end, kStepsInGrowth);
     keep_best(beam, body, from, to, count);
     if (begin == 0 && end == looks.size()) return beam;
     count = std::max<std::size_t>(12, 2 * count / 3);

@@ -17,7 +17,7 @@ constexpr double kQuality = 0.01, kSpacing = 8.0;
 constexpr double kInlier = 0.7;       // px
 constexpr double kAgreeing = 0.6;     // share of the corners
 constexpr int kFewestCorners = 15;           // corners
-constexpr double kSpread = 0.35;      // of the picture's width and height that the corners must span
+constexpr double kCornerSpread = 0.35;  // of the picture's width and height that the corners must span
 constexpr double kStill = 0.35;       // px, of a corner of the picture
 constexpr double kGain = 0.85;        // of the difference from the first frame that undoing the motion may leave
 
@@ -37,7 +37,7 @@ bool spread(const std::vector<cv::Point2f>& points, const std::vector<unsigned c
   cv::Rect2f box;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (inlier[i]) box = box.empty() ? cv::Rect2f(points[i], cv::Size2f(1e-3f, 1e-3f)) : box | cv::Rect2f(points[i], cv::Size2f(1e-3f, 1e-3f));
-  return box.width > kSpread * size.width && box.height > kSpread * size.height;
+  return box.width > kCornerSpread * size.width && box.height > kCornerSpread * size.height;
 }
 
 /// The strongest corners of each part of the picture, then the strongest of all: one textured wall would tell nothing of turns and zooms.

@@ -17,7 +17,7 @@
 namespace unseen::cuboids {
 namespace {
 
-constexpr double kSmallest = 0.01, kLargest = 100.0;  // m: sizes of a model
+constexpr double kSmallestModel = 0.01, kLargestModel = 100.0;  // m: sizes of a model
 constexpr double kSameLevel = 0.02;                   // m
 constexpr std::size_t kModelPoints = 40'000, kScenePoints = 200, kRefinePoints = 2000, kFreePoints = 200;
 constexpr double kNear = 0.02;     // m: points so near to a cuboid are its own
@@ -36,8 +36,8 @@ std::vector<Vec3> usable_points(const PointCloud& model) {
     high = high.cwiseMax(p);
   }
   const double size = (high - low).maxCoeff();
-  if (size < kSmallest || size > kLargest)
-    throw InputError("model", "size", fmt::format("{:.3g} m", size), fmt::format("{} to {} m: is the unit metres?", kSmallest, kLargest));
+  if (size < kSmallestModel || size > kLargestModel)
+    throw InputError("model", "size", fmt::format("{:.3g} m", size), fmt::format("{} to {} m: is the unit metres?", kSmallestModel, kLargestModel));
   return out;
 }
 

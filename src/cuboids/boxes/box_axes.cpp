@@ -17,7 +17,7 @@
 namespace unseen::cuboids {
 namespace {
 
-const double kMostOff = radians(8.0), kAlignedCosine = std::cos(kMostOff);
+const double kMostAskew = radians(8.0), kAlignedCosine = std::cos(kMostAskew);
 const double kSteepest = std::cos(radians(45.0));  // of a support on which things stand
 const double kLeastSlant = radians(2.0), kMostLean = radians(15.0);
 constexpr double kTurningArea = 0.1;  // of the largest face, that tells how it is turned within its plane …
@@ -123,7 +123,7 @@ double misfit(const Observation& seen, std::span<const Face* const> faces, const
     int nearest = 0;
     (axes.transpose() * n).cwiseAbs().maxCoeff(&nearest);
     const Vec3 axis = axes.col(nearest), off = axis - axis.dot(n) * n;
-    if (off.norm() > 1e-9) sum += std::pow(std::min(line_angle(axis, n), kMostOff) / direction_error(seen, *face, off.normalized()).all(), 2);
+    if (off.norm() > 1e-9) sum += std::pow(std::min(line_angle(axis, n), kMostAskew) / direction_error(seen, *face, off.normalized()).all(), 2);
   }
   return sum;
 }

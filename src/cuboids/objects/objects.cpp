@@ -107,7 +107,7 @@ std::vector<double> roughness_of(const Observation& seen) {
 }
 
 /// How many points an object has at the least, among these pieces.
-std::size_t fewest_points(const std::vector<std::vector<int>>& pieces, bool of_all) {
+std::size_t fewest_object_points(const std::vector<std::vector<int>>& pieces, bool of_all) {
   const std::size_t total = std::accumulate(pieces.begin(), pieces.end(), std::size_t{0}, [](std::size_t n, const auto& p) { return n + p.size(); });
   return std::max(kFewestObjectPoints, of_all ? static_cast<std::size_t>(kSmallestObject * static_cast<double>(total)) : 0);
 }
@@ -182,7 +182,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
       const std::vector<std::vector<int>> parts = components(seen, joined);
       stacks = find_stacks(seen, parts, context);
       find_plain_colors(frame, seen, parts, DepthView(frame, seen.T_world_camera, depth_noise(frame, options)), stacks, context);
-      find_seams(frame, seen, parts, fewest_points(parts, !drawn), stacks, context);
+      find_seams(frame, seen, parts, fewest_object_points(parts, !drawn), stacks, context);
     }
     if (stacks.stack_of_piece.size() > 1) joined = join_surfaces(seen, group, stacks.piece_of_point);
     const int first = static_cast<int>(labels.size()) + 2;
@@ -194,7 +194,7 @@ std::vector<ObjectPart> find_objects(const RgbdFrame& frame, const Observation& 
   const std::vector<double> roughness = roughness_of(seen);
   std::size_t debris = 0;
   std::vector<std::vector<int>> pieces = components(seen, object);
-  const std::size_t fewest = fewest_points(pieces, !masked && !drawn);
+  const std::size_t fewest = fewest_object_points(pieces, !masked && !drawn);
   for (std::vector<int>& points : pieces) {
     if (is_debris(seen, roughness, points, fewest)) {
       ++debris;

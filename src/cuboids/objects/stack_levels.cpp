@@ -43,16 +43,16 @@ std::span<const Sample> between(std::span<const Sample> samples, double low, dou
 }
 
 /// A level, and what boxes below and above it leave unexplained. In a row of boxes a wall between two, and "below" is on its one side.
-struct Level {
+struct StackLevel {
   double at = 0, left = std::numeric_limits<double>::infinity();
 };
 
 /// The level that leaves least; infinitely much if there is none.
-Level best_level(std::span<const Sample> samples) {
+StackLevel best_level(std::span<const Sample> samples) {
   const double low = samples.front().at, high = samples.back().at;
   const std::size_t fewest = std::max(kFewestLevelSamples, static_cast<std::size_t>(kSmallestShare * static_cast<double>(samples.size())));
   const double height = std::max(kLeastHeight, kLeastHeightSigmas * samples[samples.size() / 2].sigma);
-  Level best;
+  StackLevel best;
   for (int k = 1; k < kFirstLevels; ++k) {
     const double at = low + (high - low) * k / kFirstLevels;
     const auto below = between(samples, -kFar, at), above = between(samples, at, kFar);
@@ -67,7 +67,7 @@ Level best_level(std::span<const Sample> samples) {
 std::vector<double> split(std::span<const Sample> samples) {
   const double count = static_cast<double>(samples.size()), one = unexplained(samples);
   if (samples.size() < 2 * kFewestLevelSamples || one < kLeastExplained * count) return {};
-  const Level level = best_level(samples);
+  const StackLevel level = best_level(samples);
   if (one - level.left < std::max(kLeastExplained * count, kLeastShare * one)) return {};
   std::vector<double> levels = split(between(samples, -kFar, level.at));
   levels.push_back(level.at);

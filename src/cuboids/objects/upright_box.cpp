@@ -15,7 +15,7 @@ namespace {
 constexpr double kOffSigmas = 3.0;  // a point farther off its side counts as unexplained
 constexpr double kFacesUp = 0.7;
 constexpr double kSeen = 0.03;  // of the samples, of a side that was seen
-constexpr int kRounds = 3;
+constexpr int kFitRounds = 3;
 
 /// Mean of the values in the window of a given width that holds most of them.
 double mode(std::vector<double> values, double width) {
@@ -92,7 +92,7 @@ UprightBox fit_upright(std::span<const Sample> samples) {
   }
   box.turn_to(0.25 * std::atan2(turn.y(), turn.x()));
   const double width = 2.0 * kOffSigmas * mean_sigma(samples);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     if (round > 0) box.turn_to(box.yaw + turn_asked(box, samples));
     std::array<std::vector<double>, 5> places;
     for (const Sample& s : samples) {
@@ -116,7 +116,7 @@ Plane plane_of_most(std::span<const Sample> samples) {
   for (const Sample& s : samples) heights.push_back(normal.dot(s.p));
   Plane plane{normal, mode(std::move(heights), 2.0 * kOffSigmas * mean_sigma(samples))};
   const Vec3 origin = samples.front().p;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kFitRounds; ++round) {
     Vec3 first = Vec3::Zero();
     Mat3 second = Mat3::Zero();
     double count = 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kExactly = 0.03;   // tolerances
 constexpr double kNoSliding = 10.0; // friction: what settles rocks and drops
-constexpr double kFarthest = 3.0;   // tolerances that a corner may go
+constexpr double kFarthestCorner = 3.0;  // tolerances that a corner may go
 constexpr int kMostSteps = 20000;   // times bodies
 
 /// The rigid velocity with which a group collapses, up to one factor for all.
@@ -103,7 +103,7 @@ void settle(const Problem& problem, const std::vector<char>& held, Arrangement& 
       if (v.linear.isZero() && v.angular.isZero()) continue;
       now.boxes[i] = moved(now.boxes[i], v, time);
       now.solids[i] = solid_of(now.boxes[i]);
-      if (farthest_corner(arrangement.solids[i], now.solids[i]) < kFarthest * problem.tolerance[i]) continue;
+      if (farthest_corner(arrangement.solids[i], now.solids[i]) < kFarthestCorner * problem.tolerance[i]) continue;
       stays[first + i] = 1;
       too_far = true;
     }

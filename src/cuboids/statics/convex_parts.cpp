@@ -12,7 +12,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr std::size_t kMostParts = 256, kMostCells = 4096;
-constexpr double kThin = 1e-5;  // of the radius: what is thinner is nothing
+constexpr double kFlatPart = 1e-5;  // of the radius: what is thinner is nothing
 
 using Polygon = std::vector<Vec3>;
 
@@ -141,7 +141,7 @@ std::vector<ConvexSolid> convex_parts(const TriangleMesh& mesh) {
   }
   require_closed(mesh);
   const double radius = std::cbrt(std::abs(mass_center(mesh).volume));
-  const double thin = kThin * radius;
+  const double thin = kFlatPart * radius;
   std::vector<Cell> waiting = {box_around(mesh, 4.0 * thin)};
   std::vector<ConvexSolid> parts;
   for (std::size_t seen = 0; !waiting.empty(); ++seen) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kParallel = 1e-3;  // sine
 constexpr double kShareOfEdge = 0.25;     // of an edge that is contact enough, however short the edge
 constexpr double kFacing = 2.0;  // tolerances that faces which face each other may part by over their width
-constexpr double kRounding = 1e-9;
+constexpr double kAngleRounding = 1e-9;
 
 using Edge = std::array<int, 2>;
 
@@ -78,7 +78,7 @@ bool face_each_other(const Ridge& a, const Ridge& b, double tolerance) {
 /// Whether a direction across an edge is a sum of two others with weights that are not negative.
 bool is_between(const Vec3& x, const Vec3& one, const Vec3& two) {
   const double cosine = one.dot(two);
-  return x.dot(one) - cosine * x.dot(two) >= -kRounding && x.dot(two) - cosine * x.dot(one) >= -kRounding;
+  return x.dot(one) - cosine * x.dot(two) >= -kAngleRounding && x.dot(two) - cosine * x.dot(one) >= -kAngleRounding;
 }
 
 /// Half-way between the outermost of the normals (from a to b) that both edges have.
@@ -95,7 +95,7 @@ std::optional<Vec3> middle_normal(const Ridge& a, const Ridge& b) {
       sum -= n;
       ++outermost;
     }
-  if (outermost != 2 || sum.norm() < kRounding) return std::nullopt;
+  if (outermost != 2 || sum.norm() < kAngleRounding) return std::nullopt;
   return sum.normalized();
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kDirections = 16;
 constexpr double kMarginStep = 1e-3;    // g
 constexpr double kFrictionStep = 2e-3;  // of μ
-constexpr double kRough = 1e-4;  // Effort::certain: only falling or not counts
+constexpr double kRoughResidual = 1e-4;  // Effort::certain: only falling or not counts
 constexpr double kNearHorizontal = 0.26;  // |n·up| below this: within 15° of horizontal
 
 Vec3 direction(std::size_t k) {
@@ -89,7 +89,7 @@ double margin(std::span<const Body> bodies, std::span<const ContactPoint> contac
               double limit, const Context& context) {
   const Balance at_rest = balance(bodies, contacts, -Vec3::UnitZ(), {}, {}, context);
   if (!(at_rest.residual < stable_residual)) return 0.0;
-  const Effort effort{0.5 * stable_residual, kRough};
+  const Effort effort{0.5 * stable_residual, kRoughResidual};
   PushBounds bounds(limit + kMarginStep);
   double least = limit;
   for (std::size_t checked = 0; checked < kDirections; ++checked) {
@@ -123,7 +123,7 @@ double friction_needed(std::span<const Body> bodies, std::span<const ContactPoin
                        const Context& context) {
   double high = 0.0;
   for (const ContactPoint& c : contacts) high = std::max(high, c.friction);
-  const Effort effort{0.5 * stable_residual, kRough};
+  const Effort effort{0.5 * stable_residual, kRoughResidual};
   std::vector<Vec3> start;
   std::vector<ContactPoint> slippery(contacts.begin(), contacts.end());
   const auto stands_with = [&](double friction) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kCluster = 0.6, kGate = 1.5;  // m on the ground
 
 /// One piece of furniture, on the ground.
-struct Piece {
+struct FurniturePiece {
   int id = -1;
   std::string category;
   std::vector<Vec2> centers;  ///< of the objects that were put together in it
@@ -21,8 +21,8 @@ struct Piece {
   Vec2 center() const { return std::accumulate(centers.begin(), centers.end(), Vec2(0, 0)) / static_cast<double>(centers.size()); }
 };
 
-std::vector<Piece> true_pieces(const Recording& truth, bool interacted) {
-  std::vector<Piece> pieces;
+std::vector<FurniturePiece> true_pieces(const Recording& truth, bool interacted) {
+  std::vector<FurniturePiece> pieces;
   for (const Object& o : truth.objects) {
     const auto& ids = truth.interacted;
     const bool all_count = ids.empty() && !truth.uses_known;
@@ -34,13 +34,13 @@ std::vector<Piece> true_pieces(const Recording& truth, bool interacted) {
 
 /// In the result's order, each object joins the nearest piece of its category whose centre is less than `kCluster` away: a method may say
 /// one couch several times over, a seat here and a seat there.
-std::vector<Piece> found_pieces(const std::vector<FoundObject>& found) {
-  std::vector<Piece> pieces;
+std::vector<FurniturePiece> found_pieces(const std::vector<FoundObject>& found) {
+  std::vector<FurniturePiece> pieces;
   for (const FoundObject& f : found) {
     const Vec2 center = f.object.center().head<2>();
-    Piece* nearest = nullptr;
+    FurniturePiece* nearest = nullptr;
     double least = kCluster;
-    for (Piece& piece : pieces) {
+    for (FurniturePiece& piece : pieces) {
       const double d = (piece.center() - center).norm();
       if (piece.category == f.object.category && d < least) least = d, nearest = &piece;
     }
@@ -51,7 +51,7 @@ std::vector<Piece> found_pieces(const std::vector<FoundObject>& found) {
 }
 
 /// Assigns true pieces to found ones, says so in `scores`, and takes the found ones away.
-void match(const std::vector<Piece>& truth, bool interacted, std::vector<Piece>& found, std::vector<ObjectScore>& scores) {
+void match(const std::vector<FurniturePiece>& truth, bool interacted, std::vector<FurniturePiece>& found, std::vector<ObjectScore>& scores) {
   Eigen::MatrixXd distance(truth.size(), found.size());
   for (std::size_t t = 0; t < truth.size(); ++t)
     for (std::size_t f = 0; f < found.size(); ++f)
@@ -69,7 +69,7 @@ void match(const std::vector<Piece>& truth, bool interacted, std::vector<Piece>&
     }
     scores.push_back(s);
   }
-  std::vector<Piece> rest;
+  std::vector<FurniturePiece> rest;
   for (std::size_t f = 0; f < found.size(); ++f)
     if (!taken[f]) rest.push_back(found[f]);
   found = std::move(rest);
@@ -94,11 +94,11 @@ void summarize_distances(Evaluation& e) {
 }  // namespace
 
 void score_objects(const std::vector<FoundObject>& objects, const Recording& truth, Evaluation& e) {
-  std::vector<Piece> found = found_pieces(objects);
-  const std::vector<Piece> used = true_pieces(truth, true);
+  std::vector<FurniturePiece> found = found_pieces(objects);
+  const std::vector<FurniturePiece> used = true_pieces(truth, true);
   match(used, true, found, e.objects);
   match(true_pieces(truth, false), false, found, e.objects);
-  for (const Piece& f : found) e.objects.push_back({-1, f.id, f.category, superclass_of(f.category), false, {}});
+  for (const FurniturePiece& f : found) e.objects.push_back({-1, f.id, f.category, superclass_of(f.category), false, {}});
   e.interacted = static_cast<int>(used.size());
   e.false_objects = static_cast<int>(found.size());
   e.found = static_cast<int>(std::count_if(e.objects.begin(), e.objects.end(), [](const ObjectScore& s) { return s.interacted && s.found >= 0; }));

@@ -7,7 +7,7 @@
 namespace unseen::interactions {
 namespace {
 
-constexpr double kStep = 1.0 / kRate;  // s
+constexpr double kGaitStep = 1.0 / kRate;  // s
 
 struct Place {
   Vec2 at = Vec2::Zero();
@@ -61,12 +61,12 @@ std::vector<Place> stroll(const std::vector<Vec2>& path, double heading, double 
     const double error = wrapped(wanted - heading);
     // a turn speeds up and brakes softly
     const double rate = std::clamp(4.5 * error, -2.4, 2.4) * manner.lively;
-    turning += std::clamp(rate - turning, -12.0 * kStep, 12.0 * kStep);
-    heading += turning * kStep;
+    turning += std::clamp(rate - turning, -12.0 * kGaitStep, 12.0 * kGaitStep);
+    heading += turning * kGaitStep;
     const double free = arriving ? std::max(0.3, std::cos(error)) : std::max(0.05, std::cos(std::min(1.2 * std::abs(error), 0.5 * kPi)));
     const double allowed = std::min(manner.speed * free, std::sqrt(2.0 * 0.8 * acceleration * std::max(0.0, rest)));
-    speed += std::clamp(allowed - speed, -2.5 * kStep, acceleration * kStep);
-    s = std::min(total, s + speed * kStep);
+    speed += std::clamp(allowed - speed, -2.5 * kGaitStep, acceleration * kGaitStep);
+    s = std::min(total, s + speed * kGaitStep);
     places.push_back({point(s), heading, speed});
     if (rest < 2e-4 && std::abs(error) < 1e-3 && std::abs(turning) < 0.01) break;
   }

@@ -12,7 +12,7 @@
 namespace unseen::planes {
 namespace {
 
-constexpr double kBeside = 1.6, kBesideInDrawings = 2.5;  // of the reach: where patches adjoin; lines end before the corner, whose cells have no normal
+constexpr double kBesideReach = 1.6, kBesideInDrawings = 2.5;  // of the reach: where patches adjoin; lines end before the corner, whose cells have no normal
 
 /// Half the median rms of regions, and no less than rounding leaves.
 double least_noise_of(const VoxelGrid& grid, const Space& space, const CellSets& regions) {
@@ -30,7 +30,7 @@ void sort_unique(Pairs& pairs) {
 }
 
 void find_neighbours(const VoxelGrid& grid, const Cells& cells, const Space& space, double angle, Patches& result, const Context& context) {
-  const double beside_within = space.is_2d() ? kBesideInDrawings : kBeside;
+  const double beside_within = space.is_2d() ? kBesideInDrawings : kBesideReach;
   const std::vector<int>& patch_of_cell = result.patch_of_cell;
   std::vector<int> parent;
   VoxelGrid coarse = grid.coarser(parent, context);  // voxels of edge ρ

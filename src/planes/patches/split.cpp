@@ -15,11 +15,12 @@ constexpr std::size_t kSplitCells = 12;                // smaller regions are le
 constexpr int kLocalBits = 2;                          // small neighbourhoods are 2² voxels wide,
 constexpr double kLocalPoints = 12, kLocalFlat = 0.3;  // with so many points, and this flat (rms over spread)
 constexpr double kStraight = 1.5;                      // times their noise is left by pieces that are straight
+constexpr std::size_t kFewCells = 100;                 // voxels: what is smaller is cut at shallow bends only if the pieces are straight
 constexpr std::size_t kWavyCells = 100;                // voxels of what tells how wavy the scan is:
 constexpr double kWavyShare = 0.25, kWavy = 3.0;       // this share of the surface has less rms, and waves no more than so many times that
 
 /// A region, or a piece of one.
-struct Part {
+struct RegionPart {
   std::vector<int> cells;  ///< none if it has pieces
   int whole = -1;          ///< that it is a piece of
   std::size_t size = 0;    ///< voxels
@@ -44,31 +45,38 @@ double local_variance(const VoxelGrid& grid, const std::vector<int>& cells) {
   return count > 0.0 ? error / count : std::numeric_limits<double>::infinity();
 }
 
+/// The squared error (m²) of pieces to a plane each.
+double left_by(const VoxelGrid& grid, const Space& space, const CellSets& pieces) {
+  double left = 0;
+  for (const std::vector<int>& piece : pieces) left += squared_error(sum_of(grid, piece), space);
+  return left;
+}
+
 /// The rms (m) that a share of the surface does not exceed: of regions and pieces that are whole.
-double typical_rms(const std::vector<Part>& parts) {
+double typical_rms(const std::vector<RegionPart>& parts) {
   std::vector<std::pair<double, double>> rms;  // by voxels
-  for (const Part& part : parts)
+  for (const RegionPart& part : parts)
     if (!part.cut && !(part.whole >= 0 && !parts[part.whole].cut) && part.size >= kWavyCells) rms.emplace_back(part.rms(), part.size);
   return rms.empty() ? 0.0 : weighted_quantile(std::move(rms), kWavyShare);
 }
 
 /// Joins again what was cut at shallow bends where the pieces are not straight either and one plane leaves no more than `most` (rms, m).
-void mend_waves(std::vector<Part>& parts, double most) {
-  for (Part& part : parts) part.left = 0.0, part.cut = part.pieces;
+void mend_waves(std::vector<RegionPart>& parts, double most) {
+  for (RegionPart& part : parts) part.left = 0.0, part.cut = part.pieces;
   for (std::size_t p = parts.size(); p-- > 0;) {  // pieces come after what they are cut from
-    Part& part = parts[p];
+    RegionPart& part = parts[p];
     if (part.cut && part.left > part.straight && part.rms() < most) part.cut = false;
     if (!part.cut) part.left = part.error;
     if (part.whole >= 0) parts[part.whole].left += part.left;
   }
-  for (Part& part : parts)  // pieces of what is whole are whole with it
+  for (RegionPart& part : parts)  // pieces of what is whole are whole with it
     if (part.whole >= 0 && !parts[part.whole].cut) part.cut = false;
 }
 
 }  // namespace
 
 CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regions, Context& context, const CellSets& uncut) {
-  std::vector<Part> parts;
+  std::vector<RegionPart> parts;
   const auto add = [&](std::vector<int> cells, int whole) {
     parts.push_back({std::move(cells), whole});
     parts.back().size = parts.back().cells.size();
@@ -79,13 +87,15 @@ CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regio
     std::vector<Pieced> cuts(end - begin);
     parallel_blocks(context, end - begin, 1, [&](std::size_t from, std::size_t to) {
       for (std::size_t p = from; p < to; ++p) {
-        Part& part = parts[begin + p];
+        RegionPart& part = parts[begin + p];
         const Moments sum = sum_of(grid, part.cells);
         part.count = sum.count;
         part.error = squared_error(sum, space);
         if (part.size < kSplitCells || std::binary_search(uncut.begin(), uncut.end(), part.cells)) continue;
         cuts[p] = best_cut(grid, space, part.cells);
-        if (cuts[p].bent && !space.is_2d()) part.straight = kStraight * kStraight * local_variance(grid, part.cells) * sum.count;
+        if (!cuts[p].bent || space.is_2d()) continue;
+        part.straight = kStraight * kStraight * local_variance(grid, part.cells) * sum.count;
+        if (part.size < kFewCells && left_by(grid, space, cuts[p].pieces) > part.straight) cuts[p] = {};
       }
     });
     for (std::size_t p = begin; p < end; ++p) {
@@ -108,7 +118,7 @@ CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regio
     cells.insert(cells.end(), parts[p].cells.begin(), parts[p].cells.end());
     parts[p].cells.clear();
   }
-  for (Part& part : parts)
+  for (RegionPart& part : parts)
     if (!part.cells.empty()) {
       std::sort(part.cells.begin(), part.cells.end());
       result.push_back(std::move(part.cells));

@@ -14,7 +14,7 @@ constexpr double kStray = 5.0;      // times the median distance of a region's p
 constexpr double kNoStray = 0.05;   // of the tolerance: what is nearer is never a stray
 constexpr double kFewInVoxel = 2;     // points: more are something that stands there
 constexpr int kStrayRounds = 3, kCoreRounds = 10;
-constexpr double kFewest = 12;        // points that a quarter's plane is fitted to
+constexpr double kFewestInQuarter = 12;  // points that a quarter's plane is fitted to
 constexpr double kClearlyLess = 0.7;
 constexpr std::size_t kMedianOf = 4096;  // voxels that tell a median
 
@@ -51,7 +51,7 @@ std::vector<int> least_median_part(const VoxelGrid& grid, const Space& space, co
   }
   for (std::vector<int>& quarter : quarters) {
     const Moments sum = sum_of(grid, quarter);
-    if (sum.count < kFewest) continue;
+    if (sum.count < kFewestInQuarter) continue;
     if (const double median = median_distance(grid, region, fit_plane(sum, space), sum.mean); median < kClearlyLess * least) least = median, best = std::move(quarter);
   }
   return best;

@@ -58,7 +58,8 @@ std::vector<Mat3> turn_covariances(const std::vector<Patch>& patches, const std:
   return information;
 }
 
-/// Gives parts of one direction whose offsets do not differ significantly one surface, the largest part first.
+/// Gives parts of one direction whose offsets do not differ significantly one surface, the largest part first. What its frame turns out of its own points shares
+/// none: its offset is that of the plane it lies on, and together with others it would hide how far it is turned.
 void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, const VoxelGrid& grid, const Cells& surface, const Space& space,
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
                     Model& model, const Context& context) {
@@ -68,6 +69,7 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
     double variance;  // m², of the offset
     Vec3 normal;
     std::vector<std::size_t> patches;
+    bool alone;
   };
   std::vector<Patch> patches(cells.size());
   parallel_blocks(context, cells.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -85,10 +87,11 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
     const Patch& patch = patches[j];
     if (patch.cells.empty()) continue;
     const double variance = std::pow(kExact * grid.tolerance, 2) + std::pow(patch.fit.rms, 2) / std::min(kMostPoints, patch.moments.count);
+    const bool alone = !space.is_2d() && is_turned_out(patch, normals[j]);
     int to = -1;
     double nearest = 0.5 * grid.tolerance;
-    for (std::size_t s = 0; s < sums.size(); ++s) {
-      if (line_angle(sums[s].normal, normals[j]) > 1e-7) continue;
+    for (std::size_t s = 0; s < sums.size() && !alone; ++s) {
+      if (sums[s].alone || line_angle(sums[s].normal, normals[j]) > 1e-7) continue;
       const Vec3 apart = patch.moments.mean - sums[s].moments.mean, lever = normals[j].cross(apart);
       const double limit = 3.0 * std::sqrt(variance + sums[s].variance + lever.dot(turns[frame[j]] * lever));
       const double offset = std::abs(normals[j].dot(apart));
@@ -96,7 +99,7 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
     }
     if (to < 0) {
       to = static_cast<int>(sums.size());
-      sums.push_back({{}, variance, normals[j], {}});
+      sums.push_back({{}, variance, normals[j], {}, alone});
       model.surfaces.push_back({frame[j], local[j], {}, 0.0});
     }
     sums[to].moments += patch.moments;

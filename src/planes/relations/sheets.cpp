@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kThick = 4.0;                // times the typical noise
 constexpr double kInSheet = 3.0;              // times the noise, off the sheet
-constexpr std::size_t kFewest = 60;           // points
+constexpr std::size_t kFewestOnSheet = 60;    // points
 constexpr int kTries = 100;
-constexpr double kMost = 0.5;                 // of the points: less is clutter
+constexpr double kMostOfPoints = 0.5;         // of the points: less is clutter
 constexpr double kAllOver = 0.8;              // of the spread of all points: less is a step
 constexpr double kWorth = 0.7 * kPi / 180.0;  // rad, that the sheet is turned from where the surface is held
 constexpr double kTurned = 20 * kPi / 180.0;  // rad, from all points: more is something else
@@ -37,7 +37,7 @@ std::vector<Vec3> main_sheet(const std::vector<Vec3>& points, const PlaneFit& al
     if (count > most) most = count, normal_of_most = normal, at = a;
   }
   std::vector<Vec3> best = near(normal_of_most, at);
-  for (int round = 0; round < 3 && best.size() >= kFewest; ++round) {
+  for (int round = 0; round < 3 && best.size() >= kFewestOnSheet; ++round) {
     Moments m;
     for (const Vec3& p : best) m += Moments{1.0, p, Mat3::Zero()};
     best = near(fit_plane(m, space).normal, m.mean);
@@ -63,11 +63,11 @@ void keep_main_sheets(Model& model, const Survey& survey, const VoxelGrid& grid,
     if (std::abs(model.normal(s).dot(p) - s.offset) < tolerance) points[surface_of[voxel]].push_back(p);
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].size() < kFewest) continue;
+    if (points[k].size() < kFewestOnSheet) continue;
     context.check();
     Patch& support = model.surfaces[k].support;
     const std::vector<Vec3> sheet = main_sheet(points[k], support.fit, noise, space);
-    if (sheet.size() < kFewest || static_cast<double>(sheet.size()) < kMost * static_cast<double>(points[k].size())) continue;
+    if (sheet.size() < kFewestOnSheet || static_cast<double>(sheet.size()) < kMostOfPoints * static_cast<double>(points[k].size())) continue;
     Moments m;
     for (const Vec3& p : sheet) m += Moments{1.0, p, Mat3::Zero()};
     const PlaneFit fit = fit_plane(m, space);

@@ -125,11 +125,17 @@ std::array<int, 2> drawing_axes(const Arrangement& drawing) {
   return {flat == 0 ? 1 : 0, flat == 2 ? 1 : 2};
 }
 
-void count_points(const Moments& points, ArrangedPlane& plane) {
+void count_points(const Moments& points, const Space& space, ArrangedPlane& plane) {
   plane.points = static_cast<std::size_t>(points.count);
   plane.rms = points.count > 0
                   ? std::sqrt(points.squared_distances(plane.plane.normal, plane.plane.offset) / points.count)
                   : 0.0;
+  if (points.count < 3) return;
+  const PlaneFit fit = fit_plane(points, space);
+  const double u = plane.plane.normal.dot(fit.u), v = space.is_2d() ? 0.0 : plane.plane.normal.dot(fit.v), off = std::hypot(u, v);
+  plane.turned = line_angle(plane.plane.normal, fit.normal);
+  const double error_u = std::sqrt(tilt_noise(points, fit, 0.0, fit.spread_u)), error_v = space.is_2d() ? 0.0 : std::sqrt(tilt_noise(points, fit, 0.0, fit.spread_v));
+  plane.turned_error = std::min(off > 0 ? std::hypot(u * error_u, v * error_v) / off : std::max(error_u, error_v), kPi / 2);
 }
 
 void find_relations(const AngleSet& angles, Arrangement& result) {

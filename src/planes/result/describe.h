@@ -14,7 +14,7 @@ std::vector<int> describe_planes(const Model& model, const std::vector<Moments>&
                                  const Space& space, Arrangement& result, const Context& context);
 
 /// Sets a plane's number of points and their rms distance.
-void count_points(const Moments& points, ArrangedPlane& plane);
+void count_points(const Moments& points, const Space& space, ArrangedPlane& plane);
 
 /// Pairs of directions at an angle of Θ, and how many pairs of planes they make.
 void find_relations(const AngleSet& angles, Arrangement& result);

@@ -31,11 +31,17 @@ struct Levels {
   Vec3 axis;               ///< unit
   std::vector<double> at;  ///< m, ascending
 
+  /// The first level above a point, of those that have one below them.
+  std::size_t above(const Vec3& p) const {
+    const auto i = std::lower_bound(at.begin(), at.end(), axis.dot(p)) - at.begin();
+    return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 1, static_cast<std::ptrdiff_t>(at.size()) - 1));
+  }
   /// How far apart the levels are around a point (m).
-  double step_at(const Vec3& p) const {
-    const auto above = std::lower_bound(at.begin(), at.end(), axis.dot(p));
-    const auto i = std::clamp<std::ptrdiff_t>(above - at.begin(), 1, static_cast<std::ptrdiff_t>(at.size()) - 1);
-    return at[static_cast<std::size_t>(i)] - at[static_cast<std::size_t>(i - 1)];
+  double step_at(const Vec3& p) const { return at[above(p)] - at[above(p) - 1]; }
+  /// How far a point is from the nearest level (m).
+  double off(const Vec3& p) const {
+    const double x = axis.dot(p);
+    return std::min(std::abs(at[above(p)] - x), std::abs(x - at[above(p) - 1]));
   }
 };
 
@@ -91,6 +97,14 @@ bool are_even(const std::vector<double>& at) {
   return median(std::move(ratios)) < kUneven;
 }
 
+/// How far apart levels are (m), where there are points on them: the columns of a scan make levels of some walls, and what lies between is far from any.
+double step_of(const Levels& levels, const LargeVector<Vec3>& points, const std::vector<Probe>& probes, double least, const Space& space) {
+  std::vector<Probe> on;
+  for (const Probe& p : probes)
+    if (levels.off(points[p.index]) <= kNarrow * least) on.push_back(p);
+  return on.empty() ? 0.0 : weighted_median(on, space, [&](const Probe& p) { return levels.step_at(points[p.index]); });
+}
+
 /// The levels of points along an axis, if much of them lie on values that stand out among those `least` (m) away and less.
 std::optional<Levels> find_levels(const LargeVector<Vec3>& points, const Vec3& axis, double least) {
   const std::size_t every = points.size() / kMostLookedAt + 1;
@@ -126,9 +140,9 @@ double step_of_levels(const Survey& survey, const Space& space, const std::vecto
   const std::vector<Vec3> axes = axes_of_levels(probes);
   std::vector<double> steps(axes.size(), 0.0);
   parallel_blocks(context, axes.size(), 1, [&](std::size_t a, std::size_t) {
-    const std::optional<Levels> levels = find_levels(survey.sample, axes[a], kLeastStep * scale);
-    if (levels && is_of_depth(probes, axes[a], space))
-      steps[a] = weighted_median(probes, space, [&](const Probe& p) { return levels->step_at(survey.sample[p.index]); });
+    const double least = kLeastStep * scale;
+    const std::optional<Levels> levels = find_levels(survey.sample, axes[a], least);
+    if (levels && is_of_depth(probes, axes[a], space)) steps[a] = step_of(*levels, survey.sample, probes, least, space);
   });
   double widest = 0, second = 0;
   for (const double step : steps) {

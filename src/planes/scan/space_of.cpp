@@ -36,7 +36,7 @@ bool fills_area(const Survey& survey, int axis) {
 /// Whether a sample lies between two parallel cuts: far thinner than it is wide, and evenly spread over that thickness wherever one looks. Noise about a surface heaps
 /// up in its middle, coordinates that are rounded come in steps, and ground is thinner at each place than as a whole.
 bool is_slice(const Survey& survey, int axis) {
-  constexpr double kThin = 0.005;           // of the lesser of the other two extents
+  constexpr double kThin = 0.01;            // of the lesser of the other two extents
   constexpr double kEven = 1.8, kOff = 0.3;  // kurtosis: of a uniform distribution, and how far off it may be; of a normal one it is 3, of two levels 1
   constexpr std::size_t kSteps = 8;         // of rounded coordinates, at least
   constexpr double kWhole = 0.8;            // of the variance is seen within single cells

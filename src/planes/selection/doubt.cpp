@@ -18,7 +18,7 @@ constexpr double kPrecise = 0.3;         // of the systematic doubt: noise that 
 constexpr double kQuantile = 0.75, kUsual = 1.32;  // the square of a standard normal variable is below this so often; tails are heavy
 constexpr double kMuchLess = 0.6, kLeast = 0.1;  // of the doubt at first: when to look again, and what is left at least
 constexpr int kAgain = 3;  // what was in the largest frame by chance leaves it, and then more of the doubt goes
-constexpr double kFlat = 0.2;      // rad: between patches that go on in each other
+constexpr double kGoesOn = 0.2;    // rad: between patches that go on in each other
 constexpr double kMeant = 9;       // times the doubt's variance: an edge of another angle
 constexpr double kRough = 2;       // times the typical noise: two sides of a wall, or more than one thing
 constexpr double kFewPoints = 15;  // of these, clutter at a rim is a part that large walls do not show
@@ -101,7 +101,7 @@ double doubt_at_edges(const Patches& patches, const AngleSet& angles) {
   for (const auto& [a, b] : patches.adjoining) {
     const Patch &pa = patches.patches[a], &pb = patches.patches[b];
     const double angle = line_angle(pa.fit.normal, pb.fit.normal);
-    if (angle < kFlat || pa.bowed || pb.bowed) continue;
+    if (angle < kGoesOn || pa.bowed || pb.bowed) continue;
     const Vec3 axis = pa.fit.normal.cross(pb.fit.normal).normalized();
     double systematic = 0, noise = 0;
     for (const Patch* p : {&pa, &pb}) {

@@ -11,6 +11,7 @@ namespace {
 constexpr double kIndistinct = 4.0;  // χ²: two standard errors
 constexpr double kWorse = 9.0;        // χ² by which an orientation may suit a patch less than another one that is nearly the same
 constexpr double kDominant = 1.0 / 3;  // of the area
+constexpr double kBetter = 2.0;        // χ² by which the frame of a face beside it suits a patch better: sides of a box go together
 
 /// A patch to which a frame offers an orientation.
 struct Offered {
@@ -59,6 +60,7 @@ struct Orientation {
   std::size_t frame;
   int local;
   Vec3 direction;
+  double chi2;
 };
 
 /// By patch: the orientations that suit it, which it has or from which its own does not differ. Lines of a drawing have one angle, and many differ
@@ -74,7 +76,7 @@ std::vector<std::vector<Orientation>> suiting(const Patches& patches, const std:
       const Vec3 direction = s.frames[k].direction(locals[c.local]);
       const double chi2 = tilt_chi2(patch, direction);
       const bool same = line_angle(direction, has[j]) < kSameOrientation && chi2 < tilt_chi2(patch, has[j]) + kWorse;
-      if (same || (!space.is_2d() && chi2 < kIndistinct)) suits[j].push_back({k, c.local, direction});
+      if (same || (!space.is_2d() && chi2 < kIndistinct)) suits[j].push_back({k, c.local, direction, chi2});
     }
   }
   return suits;
@@ -96,6 +98,28 @@ void follow_neighbours(const Patches& patches, const std::vector<Vec3>& has, std
   }
 }
 
+/// Takes from a patch the orientations of frames that do not suit a face that it adjoins, where another suits both and it better: much better, or no other face speaks
+/// for the first. The sides of a cabinet that stands a little askew are turned with its front, though the narrow ones alone would fit the room, too.
+void follow_faces(const Patches& patches, std::size_t frames, std::vector<std::vector<Orientation>>& suits) {
+  Table<char> offered(static_cast<int>(suits.size()), static_cast<int>(frames), 0);
+  for (std::size_t j = 0; j < suits.size(); ++j)
+    for (const Orientation& o : suits[j]) offered(static_cast<int>(j), static_cast<int>(o.frame)) = 1;
+  std::vector<std::vector<int>> beside(suits.size());
+  for (const auto& [a, b] : patches.adjoining) beside[a].push_back(b), beside[b].push_back(a);
+  /// Whether a face that the patch adjoins has the one frame and not the other.
+  const auto speaks_for = [&](std::size_t j, const Orientation& one, const Orientation& other) {
+    return std::any_of(beside[j].begin(), beside[j].end(), [&](int b) { return offered(b, static_cast<int>(one.frame)) && !offered(b, static_cast<int>(other.frame)); });
+  };
+  for (std::size_t j = 0; j < suits.size(); ++j) {
+    const std::vector<Orientation> all = suits[j];
+    std::erase_if(suits[j], [&](const Orientation& o) {
+      return std::any_of(all.begin(), all.end(), [&](const Orientation& other) {
+        return other.chi2 < o.chi2 && speaks_for(j, other, o) && (other.chi2 + kBetter < o.chi2 || !speaks_for(j, o, other));
+      });
+    });
+  }
+}
+
 /// Where several frames offer a patch an orientation that suits it, the frame that can have the most area takes it, then the one that can have most of
 /// what is left: a room keeps its floor when a table shares it, and walls stay together.
 void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const Space& space, Selection& s) {
@@ -103,7 +127,10 @@ void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, do
   for (std::size_t j = 0; j < has.size(); ++j)
     if (!patches.patches[j].bowed) has[j] = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
   std::vector<std::vector<Orientation>> suits = suiting(patches, has, locals, patch_angle, space, s);
-  if (!space.is_2d()) follow_neighbours(patches, has, suits);
+  if (!space.is_2d()) {
+    follow_faces(patches, s.frames.size(), suits);
+    follow_neighbours(patches, has, suits);
+  }
   std::vector<std::vector<Offered>> offers(s.frames.size());
   for (std::size_t j = 0; j < suits.size(); ++j)
     for (const Orientation& o : suits[j]) offers[o.frame].push_back({j, o.local});
