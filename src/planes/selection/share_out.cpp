@@ -98,26 +98,28 @@ void follow_neighbours(const Patches& patches, const std::vector<Vec3>& has, std
   }
 }
 
-/// Takes from a patch the orientations of frames that do not suit a face that it adjoins, where another suits both and it better: much better, or no other face speaks
-/// for the first. The sides of a cabinet that stands a little askew are turned with its front, though the narrow ones alone would fit the room, too.
-void follow_faces(const Patches& patches, std::size_t frames, std::vector<std::vector<Orientation>>& suits) {
-  Table<char> offered(static_cast<int>(suits.size()), static_cast<int>(frames), 0);
-  for (std::size_t j = 0; j < suits.size(); ++j)
-    for (const Orientation& o : suits[j]) offered(static_cast<int>(j), static_cast<int>(o.frame)) = 1;
+/// Takes from a patch the orientations of frames that a face which it adjoins certainly does not have, where another suits both and it better: much better, or no
+/// other face speaks for the first. The sides of a cabinet that stands a little askew are turned with its front, though the narrow ones alone would fit the room, too.
+void follow_faces(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const std::vector<OrientationFrame>& frames, std::vector<std::vector<Orientation>>& suits) {
   std::vector<std::vector<int>> beside(suits.size());
   for (const auto& [a, b] : patches.adjoining) beside[a].push_back(b), beside[b].push_back(a);
-  /// Whether a face that the patch adjoins has the one frame and not the other.
-  const auto speaks_for = [&](std::size_t j, const Orientation& one, const Orientation& other) {
-    return std::any_of(beside[j].begin(), beside[j].end(), [&](int b) { return offered(b, static_cast<int>(one.frame)) && !offered(b, static_cast<int>(other.frame)); });
+  const auto has = [&](int patch, const Orientation& o) { return std::any_of(suits[patch].begin(), suits[patch].end(), [&](const Orientation& own) { return own.frame == o.frame; }); };
+  const auto cannot_have = [&](int patch, const Orientation& o) {
+    const Candidate c = best_candidate(patches.patches[patch], frames[o.frame], locals, patch_angle);
+    return c.local < 0 || tilt_chi2(patches.patches[patch], frames[o.frame].direction(locals[c.local])) > kCertain;
   };
-  for (std::size_t j = 0; j < suits.size(); ++j) {
-    const std::vector<Orientation> all = suits[j];
-    std::erase_if(suits[j], [&](const Orientation& o) {
-      return std::any_of(all.begin(), all.end(), [&](const Orientation& other) {
+  /// Whether a face that the patch adjoins has the one frame and cannot have the other.
+  const auto speaks_for = [&](std::size_t j, const Orientation& one, const Orientation& other) {
+    return std::any_of(beside[j].begin(), beside[j].end(), [&](int b) { return has(b, one) && !has(b, other) && cannot_have(b, other); });
+  };
+  std::vector<std::vector<Orientation>> kept = suits;
+  for (std::size_t j = 0; j < suits.size(); ++j)
+    std::erase_if(kept[j], [&](const Orientation& o) {
+      return std::any_of(suits[j].begin(), suits[j].end(), [&](const Orientation& other) {
         return other.chi2 < o.chi2 && speaks_for(j, other, o) && (other.chi2 + kBetter < o.chi2 || !speaks_for(j, o, other));
       });
     });
-  }
+  suits = std::move(kept);
 }
 
 /// Where several frames offer a patch an orientation that suits it, the frame that can have the most area takes it, then the one that can have most of
@@ -128,7 +130,7 @@ void give_to_largest(const Patches& patches, const std::vector<Vec3>& locals, do
     if (!patches.patches[j].bowed) has[j] = s.frames[s.frame_of_patch[j]].direction(locals[s.local_of_patch[j]]);
   std::vector<std::vector<Orientation>> suits = suiting(patches, has, locals, patch_angle, space, s);
   if (!space.is_2d()) {
-    follow_faces(patches, s.frames.size(), suits);
+    follow_faces(patches, locals, patch_angle, s.frames, suits);
     follow_neighbours(patches, has, suits);
   }
   std::vector<std::vector<Offered>> offers(s.frames.size());
