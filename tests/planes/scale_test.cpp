@@ -249,6 +249,21 @@ TEST(ChooseScale, FloorsAndBoardsAreNoLevelsOfCoarseDepth) {
   }
 }
 
+// A station squared to the yard: the columns of its scan lie at values of their own on the walls beside it, and nothing is known of the gap between two of these.
+TEST(ChooseScale, ColumnsOfAScanAreNoLevels) {
+  PointCloud cloud;
+  Random random(12);
+  for (const double from : {-1.5, 0.3})
+    for (int column = 0; column < 80; ++column)
+      for (int row = 0; row < 60; ++row) cloud.positions.push_back({4 + 0.002 * random.normal(), from + 0.015 * column, 0.015 * row});
+  test::add_rectangle(cloud, {-9, -0.03, 0}, {12, 0, 0}, {0, 0, 4}, 0.08, 0.005, random);
+  Context context;
+  CloudSource source(cloud, "yard");
+  const Arrangement found = find_planes(source, Options(), context);
+  EXPECT_LT(found.scale, 0.2);
+  for (const std::string& warning : found.summary.warnings) EXPECT_EQ(warning.find("levels"), std::string::npos) << warning;
+}
+
 /// A cloud whose source says that its depths come in steps.
 class Stepped final : public PointSource {
  public:

@@ -159,6 +159,7 @@ TEST(SpaceOf, ASliceThroughWallsIsADrawing) {
   };
   const auto is_2d = [&](const PointCloud& cloud) { return space_of(look_at(cloud), false).is_2d(); };
   EXPECT_TRUE(is_2d(cloud_of([&] { return on_walls(0.02); })));
+  EXPECT_TRUE(is_2d(cloud_of([&] { return on_walls(0.05); })));  // of which strips would be left that are too low for planes
   EXPECT_FALSE(is_2d(cloud_of([&] { return on_walls(0.3); })));
   EXPECT_FALSE(is_2d(cloud_of([&] { return Vec3(on_rings() + Vec3(0, 0, 0.01 * random.normal())); })));
   EXPECT_FALSE(is_2d(cloud_of([&] {

@@ -100,15 +100,19 @@ void warn_of_curves(const Patches& patches, const Space& space, Context& context
   constexpr double kLeast = 2.0 * kPi / 180.0, kMost = 20.0 * kPi / 180.0;  // between strips of a curved surface
   constexpr double kFlush = 0.5 * kPi / 180.0, kMany = 0.6, kWhole = 0.8;   // no edge; of all edges; of the area that has edges, with most of that sort
   constexpr double kMuch = 0.2;                                             // of the area
+  constexpr int kSeveral = 10;                                              // strips that are worth a word
   double bowed = 0, whole = 0;
+  int strips = 0;
   for (const Patch& p : patches.patches) {
     whole += p.area;
-    if (p.bowed) bowed += p.area;
+    if (p.bowed) bowed += p.area, ++strips;
   }
   if (bowed > kMuch * whole) {
     context.warn(fmt::format("{:.0f} % of the planes' area is strips of curved surfaces: they are related to nothing", 100.0 * bowed / whole));
     return;
   }
+  if (strips >= kSeveral)
+    context.warn(fmt::format("{} planes are strips of curved surfaces, as of columns, pipes or people, and related to nothing: small ones beside them may be such strips, too", strips));
   std::vector<double> gentle(patches.patches.size(), 0.0), all(patches.patches.size(), 0.0);
   for (const auto& [a, b] : patches.adjoining) {
     const Patch &pa = patches.patches[a], &pb = patches.patches[b];

@@ -11,7 +11,7 @@ namespace {
 constexpr double kIndistinct = 4.0;  // χ²: two standard errors
 constexpr double kWorse = 9.0;        // χ² by which an orientation may suit a patch less than another one that is nearly the same
 constexpr double kDominant = 1.0 / 3;  // of the area
-constexpr double kBetter = 2.0;        // χ² by which the frame of a face beside it suits a patch better: sides of a box go together
+constexpr double kBetter = 2.0, kHardlyWorse = 1.0;  // χ² by which the frame of a face beside a patch suits it clearly better than another, or hardly worse: sides of a box go together
 
 /// A patch to which a frame offers an orientation.
 struct Offered {
@@ -98,8 +98,8 @@ void follow_neighbours(const Patches& patches, const std::vector<Vec3>& has, std
   }
 }
 
-/// Takes from a patch the orientations of frames that a face which it adjoins certainly does not have, where another suits both and it better: much better, or no
-/// other face speaks for the first. The sides of a cabinet that stands a little askew are turned with its front, though the narrow ones alone would fit the room, too.
+/// Takes from a patch the orientations of frames that a face which it adjoins certainly does not have, where another suits both: it suits the patch clearly better, or
+/// hardly worse and no other face speaks for the first. The sides of a cabinet that stands a little askew are turned with its front, though the narrow ones alone would fit the room, too.
 void follow_faces(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const std::vector<OrientationFrame>& frames, std::vector<std::vector<Orientation>>& suits) {
   std::vector<std::vector<int>> beside(suits.size());
   for (const auto& [a, b] : patches.adjoining) beside[a].push_back(b), beside[b].push_back(a);
@@ -116,10 +116,11 @@ void follow_faces(const Patches& patches, const std::vector<Vec3>& locals, doubl
   for (std::size_t j = 0; j < suits.size(); ++j)
     std::erase_if(kept[j], [&](const Orientation& o) {
       return std::any_of(suits[j].begin(), suits[j].end(), [&](const Orientation& other) {
-        return other.chi2 < o.chi2 && speaks_for(j, other, o) && (other.chi2 + kBetter < o.chi2 || !speaks_for(j, o, other));
+        return other.chi2 < o.chi2 + kHardlyWorse && speaks_for(j, other, o) && (other.chi2 + kBetter < o.chi2 || !speaks_for(j, o, other));
       });
     });
-  suits = std::move(kept);
+  for (std::size_t j = 0; j < suits.size(); ++j)
+    if (!kept[j].empty()) suits[j] = std::move(kept[j]);
 }
 
 /// Where several frames offer a patch an orientation that suits it, the frame that can have the most area takes it, then the one that can have most of
