@@ -51,7 +51,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
 /// Least squares over all surfaces at once with every relation kept exact: a rotation a frame, an offset a surface.
 void refit(Model& model);
 
-/// Whether a plane of this normal certainly turns a patch off its own points, by more than these are off their own plane.
+/// Whether a plane of this normal certainly turns a patch off its own points, by more than half of what these are off their own plane.
 bool is_turned_out(const Patch& patch, const Vec3& normal);
 
 /// Refits, and gives surfaces that their frame turned out of their own points a frame of their own: the relations of many small ones

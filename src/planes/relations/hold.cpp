@@ -12,6 +12,7 @@ constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one st
                                       // the surface's own fit, which is what it is not flat by
 constexpr double kPlain = 0.7 * kPi / 180.0, kRougher = 3.0;  // a surface that is turned by more may be off by so many times the rms of its own fit only, where the scale is coarse;
 constexpr double kProven = 100.0;  // χ² by its noise, ten standard errors: by no more than that rms
+constexpr double kHides = 0.5;     // of that rms: together with others, what is turned off its points by more would hide it
 constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
 /// How far (m) a plane of this normal turns off the points of a patch one standard deviation from its centre; 0 where noise may explain it.
@@ -32,7 +33,7 @@ double most_turned_off(const Surface& surface, const Vec3& n, double tolerance) 
 
 }  // namespace
 
-bool is_turned_out(const Patch& patch, const Vec3& n) { return turned_off(patch, n) > patch.fit.rms; }
+bool is_turned_out(const Patch& patch, const Vec3& n) { return turned_off(patch, n) > kHides * patch.fit.rms; }
 
 void refit_held(Model& model, double tolerance, const Space& space) {
   const std::size_t shared = model.frames.size();
