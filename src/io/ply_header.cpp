@@ -100,8 +100,10 @@ class HeaderParser {
       fail("property", shown(line), "\"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
     property.is_list = list;
     property.name = fields.back();
-    for (const PlyProperty& other : header_.elements.back().properties)
-      if (other.name == property.name) fail("property", shown(line), fmt::format("each name once: there is a property {} before it", property.name));
+    const PlyElement& element = header_.elements.back();
+    if (element.name == "vertex" && (property.name == "x" || property.name == "y" || property.name == "z") &&
+        std::any_of(element.properties.begin(), element.properties.end(), [&](const PlyProperty& other) { return other.name == property.name; }))
+      fail("property", shown(line), fmt::format("one {} only: there is one before it", property.name));
     header_.elements.back().properties.push_back(std::move(property));
   }
 

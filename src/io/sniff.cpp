@@ -84,8 +84,8 @@ Foreign foreign_format(std::string_view bytes) {
                                  {"ISO-10303-21", {"a STEP or IFC model", "an OBJ or STL of it"}},
                                  {"Kaydara FBX", {"an FBX scene", kMesh}},    {"PK\x03\x04", {"a ZIP archive", kUnpacked}},
                                  {"\x1f\x8b", {"a gzip archive", kUnpacked}}, {"7z\xbc\xaf", {"a 7z archive", kUnpacked}},
-                                 {"<!DOCTYPE", {"a web page", kFile}},        {"<!doctype", {"a web page", kFile}},
-                                 {"<html", {"a web page", kFile}},
+                                 {"<!DOCTYPE html", {"a web page", kFile}},   {"<!doctype html", {"a web page", kFile}},
+                                 {"<html", {"a web page", kFile}},            {"<HTML", {"a web page", kFile}},
                                  {"<", {"an XML file", kMesh}},               {"{", {"a JSON file", kMesh}}};
   for (const Known& known : kKnown)
     if (starts_with(bytes, known.start)) return known.format;

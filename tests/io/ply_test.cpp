@@ -126,7 +126,7 @@ TEST(Ply, FaultsNameFileAndField) {
   bad("hello\n", {"first line", "hello"});
   bad(kHead, {"end_header"});
   bad("ply\nelement vertex 1\n" + kXyz + "1 2 3\n", {"format"});
-  bad(kHead + "element vertex 1\n" + kXyz.substr(0, kXyz.find("end_header")) + "property float x\nend_header\n1 2 3 4\n", {"property", "property float x", "each name once"});
+  bad(kHead + "element vertex 1\n" + kXyz.substr(0, kXyz.find("end_header")) + "property float x\nend_header\n1 2 3 4\n", {"property", "property float x", "one x only"});
   bad("ply\nformat ebcdic 1.0\nend_header\n", {"format", "ebcdic"});
   bad(kHead + "element vertex 0\n" + kXyz, {"element vertex", "no points"});
   bad(kHead + "element face 1\nproperty int a\nend_header\n1\n", {"element vertex", "none"});

@@ -59,17 +59,18 @@ std::vector<Mat3> turn_covariances(const std::vector<Patch>& patches, const std:
 }
 
 /// Gives parts of one direction whose offsets do not differ significantly one surface, the largest part first. What its frame turns out of its own points shares
-/// none: its offset is that of the plane it lies on, and together with others it would hide how far it is turned.
+/// one only with what is turned alike: together with others it would hide how far.
 void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, const VoxelGrid& grid, const Cells& surface, const Space& space,
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
                     Model& model, const Context& context) {
   constexpr double kExact = 0.003;    // of the tolerance: what differs by less is the same
+  constexpr double kAlike = 1.3;      // times the squared error of a plane each is left by one plane for both: turned alike
   struct Sum {
     Moments moments;
     double variance;  // m², of the offset
     Vec3 normal;
     std::vector<std::size_t> patches;
-    bool alone;
+    bool turned_out;
   };
   std::vector<Patch> patches(cells.size());
   parallel_blocks(context, cells.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -87,19 +88,24 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
     const Patch& patch = patches[j];
     if (patch.cells.empty()) continue;
     const double variance = std::pow(kExact * grid.tolerance, 2) + std::pow(patch.fit.rms, 2) / std::min(kMostPoints, patch.moments.count);
-    const bool alone = !space.is_2d() && is_turned_out(patch, normals[j]);
+    const bool turned_out = !space.is_2d() && is_turned_out(patch, normals[j]);
     int to = -1;
     double nearest = 0.5 * grid.tolerance;
-    for (std::size_t s = 0; s < sums.size() && !alone; ++s) {
-      if (sums[s].alone || line_angle(sums[s].normal, normals[j]) > 1e-7) continue;
+    const auto turned_alike = [&](const Sum& sum) {
+      Moments both = sum.moments;
+      both += patch.moments;
+      return squared_error(both, space) < kAlike * (squared_error(sum.moments, space) + squared_error(patch.moments, space));
+    };
+    for (std::size_t s = 0; s < sums.size(); ++s) {
+      if (line_angle(sums[s].normal, normals[j]) > 1e-7) continue;
       const Vec3 apart = patch.moments.mean - sums[s].moments.mean, lever = normals[j].cross(apart);
       const double limit = 3.0 * std::sqrt(variance + sums[s].variance + lever.dot(turns[frame[j]] * lever));
       const double offset = std::abs(normals[j].dot(apart));
-      if (offset < std::min(nearest, limit)) to = static_cast<int>(s), nearest = offset;
+      if (offset < std::min(nearest, limit) && (!(turned_out || sums[s].turned_out) || turned_alike(sums[s]))) to = static_cast<int>(s), nearest = offset;
     }
     if (to < 0) {
       to = static_cast<int>(sums.size());
-      sums.push_back({{}, variance, normals[j], {}, alone});
+      sums.push_back({{}, variance, normals[j], {}, turned_out});
       model.surfaces.push_back({frame[j], local[j], {}, 0.0});
     }
     sums[to].moments += patch.moments;

@@ -135,7 +135,8 @@ void count_points(const Moments& points, const Space& space, ArrangedPlane& plan
   const double u = plane.plane.normal.dot(fit.u), v = space.is_2d() ? 0.0 : plane.plane.normal.dot(fit.v), off = std::hypot(u, v);
   plane.turned = line_angle(plane.plane.normal, fit.normal);
   const double error_u = std::sqrt(tilt_noise(points, fit, 0.0, fit.spread_u)), error_v = space.is_2d() ? 0.0 : std::sqrt(tilt_noise(points, fit, 0.0, fit.spread_v));
-  plane.turned_error = std::min(off > 0 ? std::hypot(u * error_u, v * error_v) / off : std::max(error_u, error_v), kPi / 2);
+  const double error = off > 0 ? std::hypot(u * error_u, v * error_v) / off : std::max(error_u, error_v);
+  plane.turned_error = error < kPi / 2 ? error : kPi / 2;  // of points in a line nothing is known
 }
 
 void find_relations(const AngleSet& angles, Arrangement& result) {

@@ -111,8 +111,6 @@ void warn_of_curves(const Patches& patches, const Space& space, Context& context
     context.warn(fmt::format("{:.0f} % of the planes' area is strips of curved surfaces: they are related to nothing", 100.0 * bowed / whole));
     return;
   }
-  if (strips >= kSeveral)
-    context.warn(fmt::format("{} planes are strips of curved surfaces, as of columns, pipes or people, and related to nothing: small ones beside them may be such strips, too", strips));
   std::vector<double> gentle(patches.patches.size(), 0.0), all(patches.patches.size(), 0.0);
   for (const auto& [a, b] : patches.adjoining) {
     const Patch &pa = patches.patches[a], &pb = patches.patches[b];
@@ -133,6 +131,8 @@ void warn_of_curves(const Patches& patches, const Space& space, Context& context
   if (gentle_edges > kMany * edges && curved > kWhole * area)
     context.warn(fmt::format("most {} meet their neighbours at 2 to 20 degrees, as strips of a curved {} do: if it is one, relations between them mean nothing",
                              space.is_2d() ? "lines" : "planes", space.is_2d() ? "line" : "surface"));
+  else if (strips >= kSeveral)
+    context.warn(fmt::format("{} strips of curved surfaces, as of columns, pipes or people, are related to nothing: small planes beside them may be such strips, too", strips));
 }
 
 }  // namespace unseen::planes

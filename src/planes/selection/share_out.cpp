@@ -98,17 +98,32 @@ void follow_neighbours(const Patches& patches, const std::vector<Vec3>& has, std
   }
 }
 
-/// Takes from a patch the orientations of frames that a face which it adjoins certainly does not have, where another suits both: it suits the patch clearly better, or
+/// Whether all of a patch lies on one side of another's plane, as far as its moments tell.
+bool is_beside(const Patch& patch, const Patch& other) {
+  constexpr double kRim = 1.5;  // standard deviations from the centre; √3 is the rim of what is evenly spread
+  const Vec3& n = other.fit.normal;
+  const double spread = std::sqrt(std::max(0.0, n.dot(patch.moments.scatter * n)) / patch.moments.count);
+  return std::abs(n.dot(patch.moments.mean - other.moments.mean)) > kRim * spread;
+}
+
+/// Whether two patches end at an edge that they share, as sides of a box do, and not one before the middle of the other.
+bool share_edge(const Patch& a, const Patch& b) {
+  constexpr double kLeast = 45.0 * kPi / 180.0;
+  return line_angle(a.fit.normal, b.fit.normal) > kLeast && is_beside(a, b) && is_beside(b, a);
+}
+
+/// Takes from a patch the orientations of frames that a face with which it shares an edge certainly does not have, where another suits both: it suits the patch clearly better, or
 /// hardly worse and no other face speaks for the first. The sides of a cabinet that stands a little askew are turned with its front, though the narrow ones alone would fit the room, too.
 void follow_faces(const Patches& patches, const std::vector<Vec3>& locals, double patch_angle, const std::vector<OrientationFrame>& frames, std::vector<std::vector<Orientation>>& suits) {
   std::vector<std::vector<int>> beside(suits.size());
-  for (const auto& [a, b] : patches.adjoining) beside[a].push_back(b), beside[b].push_back(a);
+  for (const auto& [a, b] : patches.adjoining)
+    if (share_edge(patches.patches[a], patches.patches[b])) beside[a].push_back(b), beside[b].push_back(a);
   const auto has = [&](int patch, const Orientation& o) { return std::any_of(suits[patch].begin(), suits[patch].end(), [&](const Orientation& own) { return own.frame == o.frame; }); };
   const auto cannot_have = [&](int patch, const Orientation& o) {
     const Candidate c = best_candidate(patches.patches[patch], frames[o.frame], locals, patch_angle);
     return c.local < 0 || tilt_chi2(patches.patches[patch], frames[o.frame].direction(locals[c.local])) > kCertain;
   };
-  /// Whether a face that the patch adjoins has the one frame and cannot have the other.
+  /// Whether a face beside the patch has the one frame and cannot have the other.
   const auto speaks_for = [&](std::size_t j, const Orientation& one, const Orientation& other) {
     return std::any_of(beside[j].begin(), beside[j].end(), [&](int b) { return has(b, one) && !has(b, other) && cannot_have(b, other); });
   };
