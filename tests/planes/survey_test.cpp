@@ -162,6 +162,14 @@ TEST(SpaceOf, ASliceThroughWallsIsADrawing) {
   EXPECT_TRUE(is_2d(cloud_of([&] { return on_walls(0.05); })));  // of which strips would be left that are too low for planes
   EXPECT_FALSE(is_2d(cloud_of([&] { return on_walls(0.3); })));
   EXPECT_FALSE(is_2d(cloud_of([&] { return Vec3(on_rings() + Vec3(0, 0, 0.01 * random.normal())); })));
+  EXPECT_FALSE(is_2d(cloud_of([&] {  // tables of a solar park
+    const double up = random.uniform(0, 1.5);
+    return Vec3(40.0 * static_cast<double>(random.index(6)) + random.uniform(0, 20), 30.0 * static_cast<double>(random.index(7)) + 2 * up, up + 0.01 * random.normal());
+  })));
+  EXPECT_FALSE(is_2d(cloud_of([&] {  // a railing of round bars
+    const double angle = random.uniform(0, 2 * kPi);
+    return Vec3(0.125 * static_cast<double>(random.index(20)) + 0.0075 * std::cos(angle), random.uniform(0, 1.8), 0.0075 * std::sin(angle) + 0.0003 * random.normal());
+  })));
   EXPECT_FALSE(is_2d(cloud_of([&] {
     const Vec3 p = on_rings();
     return Vec3(p.x(), p.y(), 0.003 * p.x() + 0.004 * random.uniform());

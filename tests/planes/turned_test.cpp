@@ -95,6 +95,51 @@ TEST(TurnedPlanes, NarrowSidesOfACabinetGoWithItsFront) {
   EXPECT_GE(square, 18);
 }
 
+/// What stands close before the middle of a turned cabinet, square to the room, is not one of its sides.
+TEST(TurnedPlanes, BoxesBeforeACabinetStaySquare) {
+  int square = 0, sides = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Faces faces = cabinet(seed);
+    Random random(seed + 100);
+    const std::size_t first = faces.first.size();
+    const Mat3 axes = Eigen::AngleAxisd(radians(-2.0), Vec3::UnitZ()).toRotationMatrix();
+    const Vec3 corner(1.0, 2.6, 0), wide = 3.0 * axes.col(0), high(0, 0, 1.7);
+    for (const double at : {1.1, 1.6}) {
+      const Vec3 box(corner.x() + at, corner.y() - 0.5, 0);
+      for (const double side : {0.0, 0.35}) faces.add(box + Vec3(side, 0, 0), {0, 0.35, 0}, {0, 0, 0.5}, 0.05, 0.005, random);
+      faces.add(box, {0.35, 0, 0}, {0, 0, 0.5}, 0.05, 0.005, random);
+      faces.add(box + Vec3(0, 0, 0.5), {0.35, 0, 0}, {0, 0.35, 0}, 0.05, 0.005, random);
+    }
+    const std::size_t last = faces.first.size();
+    faces.add(corner, wide, high, 0.035, 0.005, random);
+    faces.add(corner + 0.4 * axes.col(1), wide, high, 0.06, 0.005, random);
+    const test::Run r = test::run(faces.cloud, {});
+    for (std::size_t f = first; f < last; ++f, ++sides) square += degrees(line_angle(r.result.planes[plane_of(faces, f, r)].plane.normal, faces.normal[f])) < 0.1;
+  }
+  EXPECT_GE(square, sides - 4) << sides;
+}
+
+/// A roof in three pieces that its frame turns out of their points is one plane again once it is set free.
+TEST(TurnedPlanes, PiecesThatAreTurnedAlikeStayCoplanar) {
+  Random random(7);
+  Faces roofs;
+  const std::vector<double> pitches = {31.5, 33, 34.5, 36, 33.75, 35};
+  for (std::size_t i = 0; i < pitches.size(); ++i) {
+    const double rise = 4.0 * std::tan(radians(pitches[i]));
+    const Vec3 ridge(40.0 * static_cast<double>(i), 0, 6.0 + rise);
+    for (const double side : {-1.0, 1.0})
+      for (const double at : {0.0, 11.0, 22.0}) roofs.add(ridge + Vec3(at, 0, 0), {9, 0, 0}, {0, 4 * side, -rise}, 0.25, 0.01, random);
+  }
+  const test::Run r = test::run(roofs.cloud, {});
+  int coplanar = 0;
+  for (std::size_t f = 0; f < roofs.normal.size(); f += 3)
+    for (const std::size_t other : {f + 1, f + 2}) {
+      const Plane &a = r.result.planes[plane_of(roofs, f, r)].plane, &b = r.result.planes[plane_of(roofs, other, r)].plane;
+      coplanar += line_angle(a.normal, b.normal) < 1e-7 && std::abs(a.offset - std::copysign(b.offset, a.offset)) < 1e-6;
+    }
+  EXPECT_GE(coplanar, 22);
+}
+
 /// How far planes are turned is the angle to the least-squares plane of the points that were given to them.
 TEST(TurnedPlanes, TellTheAngleToTheFitOfItsPoints) {
   const Faces roofs = street({33, 34.2, 36}, 0.3, 0.02, 4);
