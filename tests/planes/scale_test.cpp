@@ -253,7 +253,7 @@ TEST(ChooseScale, FloorsAndBoardsAreNoLevelsOfCoarseDepth) {
 TEST(ChooseScale, ColumnsOfAScanAreNoLevels) {
   PointCloud cloud;
   Random random(12);
-  for (const double from : {-1.5, 0.3})
+  for (const double from : {-1.35, 0.15})
     for (int column = 0; column < 80; ++column)
       for (int row = 0; row < 60; ++row) cloud.positions.push_back({4 + 0.002 * random.normal(), from + 0.015 * column, 0.015 * row});
   test::add_rectangle(cloud, {-9, -0.03, 0}, {12, 0, 0}, {0, 0, 4}, 0.08, 0.005, random);
