@@ -64,7 +64,7 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
                     const std::vector<int>& frame, const std::vector<int>& local, std::vector<std::vector<int>> cells,
                     Model& model, const Context& context) {
   constexpr double kExact = 0.003;    // of the tolerance: what differs by less is the same
-  constexpr double kAlike = 1.3;      // times the squared error of a plane each is left by one plane for both: turned alike
+  constexpr double kAlike = 1.1;      // times the squared error of a plane each is left by one plane for both: turned alike
   struct Sum {
     Moments moments;
     double variance;  // m², of the offset
