@@ -89,19 +89,6 @@ TEST(Hinge, OfAFewDegreesMakesTwoPatches) {
   for (const Patch& patch : p.patches) EXPECT_NEAR(patch.area, 2.0, 0.3);
 }
 
-/// A panel that is folded by 4°, in fewer voxels than tell other shallow bends.
-TEST(Hinge, OfAFewVoxelsCounts) {
-  for (const double fold : {0.0, 4.0}) {
-    PointCloud cloud;
-    Random random(5);
-    test::add_rectangle(cloud, {-0.2, -0.2, 0.02}, {0.4, 0, 0}, {0, 0.4, 0}, 0.01, 0.0003, random);
-    for (Vec3& p : cloud.positions) p.z() += std::tan(radians(fold / 2)) * std::abs(p.x());
-    Scene scene(cloud);
-    ASSERT_LT(scene.grid.size(), 100u);
-    EXPECT_EQ(segment(scene.grid, scene.cells, scene.space, kAngle, scene.context).patches.size(), fold > 0 ? 2u : 1u);
-  }
-}
-
 TEST(Grow, TwoPlanesBecomeTwoRegions) {
   for (const double angle : {90.0, 150.0}) {
     Scene scene(hinge(angle, 0.003));

@@ -17,8 +17,7 @@ namespace {
 constexpr double kSplitGain = 0.6;       // a split must leave less than this share of the squared error
 constexpr double kSplitAngle = 0.08;     // rad: flatter hinges are noise or curvature, unless
 constexpr double kShallow = 0.02, kShallowGain = 0.3;  // they are above this, rad, and leave less than this share,
-constexpr std::size_t kShallowCells = 30;   // of so many voxels or more,
-constexpr std::size_t kLargeCells = 100;   // or more in a drawing; regions of so many may be islands, facets, or bent several times
+constexpr std::size_t kShallowCells = 100;  // of so many voxels or more,
 constexpr double kStep = 4.0;            // or parallel sides are so many times their noise apart where they meet,
 constexpr double kRounded = 3.0, kLeastStep = 0.01;  // and of the steps of coordinates, and of the tolerance
 constexpr double kBentShare = 0.25;       // of the tolerance: what is bent several times is off one plane by more, in the mean: noise may be correlated
@@ -187,8 +186,8 @@ double squared_error(const Moments& m, const Space& space) {
 Pieced best_cut(const VoxelGrid& grid, const Space& space, const std::vector<int>& region) {
   const Moments whole = sum_of(grid, region);
   const PlaneFit fit = fit_plane(whole, space);
-  const bool large = region.size() >= kLargeCells;
-  const double error = squared_error(whole, space), shallow = large || (!space.is_2d() && region.size() >= kShallowCells) ? kShallowGain * error : 0.0;
+  const bool large = region.size() >= kShallowCells;
+  const double error = squared_error(whole, space), shallow = large ? kShallowGain * error : 0.0;
   const int directions = space.is_2d() ? 1 : 8;
   const auto slices_of = [&](int count) {
     std::vector<Slices> slices;

@@ -15,7 +15,6 @@ constexpr std::size_t kSplitCells = 12;                // smaller regions are le
 constexpr int kLocalBits = 2;                          // small neighbourhoods are 2² voxels wide,
 constexpr double kLocalPoints = 12, kLocalFlat = 0.3;  // with so many points, and this flat (rms over spread)
 constexpr double kStraight = 1.5;                      // times their noise is left by pieces that are straight
-constexpr std::size_t kFewCells = 100;                 // voxels: what is smaller is cut at shallow bends only if the pieces are straight
 constexpr std::size_t kWavyCells = 100;                // voxels of what tells how wavy the scan is:
 constexpr double kWavyShare = 0.25, kWavy = 3.0;       // this share of the surface has less rms, and waves no more than so many times that
 
@@ -43,13 +42,6 @@ double local_variance(const VoxelGrid& grid, const std::vector<int>& cells) {
     count += m.count - 3.0;
   }
   return count > 0.0 ? error / count : std::numeric_limits<double>::infinity();
-}
-
-/// The squared error (m²) of pieces to a plane each.
-double left_by(const VoxelGrid& grid, const Space& space, const CellSets& pieces) {
-  double left = 0;
-  for (const std::vector<int>& piece : pieces) left += squared_error(sum_of(grid, piece), space);
-  return left;
 }
 
 /// The rms (m) that a share of the surface does not exceed: of regions and pieces that are whole.
@@ -93,9 +85,7 @@ CellSets split_regions(const VoxelGrid& grid, const Space& space, CellSets regio
         part.error = squared_error(sum, space);
         if (part.size < kSplitCells || std::binary_search(uncut.begin(), uncut.end(), part.cells)) continue;
         cuts[p] = best_cut(grid, space, part.cells);
-        if (!cuts[p].bent || space.is_2d()) continue;
-        part.straight = kStraight * kStraight * local_variance(grid, part.cells) * sum.count;
-        if (part.size < kFewCells && left_by(grid, space, cuts[p].pieces) > part.straight) cuts[p] = {};
+        if (cuts[p].bent && !space.is_2d()) part.straight = kStraight * kStraight * local_variance(grid, part.cells) * sum.count;
       }
     });
     for (std::size_t p = begin; p < end; ++p) {
