@@ -41,7 +41,7 @@ bool is_slice(const Survey& survey, int axis) {
   constexpr std::size_t kSteps = 8;         // of rounded coordinates, at least
   constexpr double kWhole = 0.8;            // of the variance is seen within single cells
   constexpr double kNarrow = 0.5;           // of the thickness, cells are wide: what slopes by 45° fills half of it there. Wider ones
-  constexpr double kMostWide = 1.0 / 16;    // up to this share of the extent
+  constexpr double kLeastWide = 1e-6, kMostWide = 1.0 / 16;  // from the one to the other share of the extent
   constexpr double kFewest = 3, kMany = 0.5;  // until so many points are in a cell, for this share of them
   const Vec3 extent = survey.high - survey.low;
   if (extent[axis] > kThin * std::min(extent[(axis + 1) % 3], extent[(axis + 2) % 3])) return false;
@@ -60,7 +60,7 @@ bool is_slice(const Survey& survey, int axis) {
   std::sort(heights.begin(), heights.end());
   if (static_cast<std::size_t>(std::unique(heights.begin(), heights.end()) - heights.begin()) <= kSteps) return false;
   double within = 0, counted = 0;
-  for (double edge = kNarrow * extent[axis], points = 0; points < kMany * all.count && edge < 2 * kMostWide * survey.extent(); edge *= 2) {
+  for (double edge = std::max(kNarrow * extent[axis], kLeastWide * survey.extent()), points = 0; points < kMany * all.count && edge < 2 * kMostWide * survey.extent(); edge *= 2) {
     KeyTable cells;
     std::vector<Sums> in_cell;
     for (const Vec3& p : survey.sample) {
