@@ -57,6 +57,54 @@ TEST(Touching, IsWhereOverlapBegins) {
   }
 }
 
+/// Written out: ½ χ² of both flights, of the momenta and of friction, above that of the flights alone. No other flights with these changes fit better.
+TEST(TouchingFit, HasTheBestFlightsForTheImpact) {
+  Random random(11);
+  const auto any = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
+  using Flight = Eigen::Matrix<double, LinearFlight::kUnknowns, 1>;
+  const auto flight = [&] {
+    LinearFlight f{any(), any(), any(), {}, {}};
+    const Eigen::MatrixXd rows = Eigen::MatrixXd::NullaryExpr(25, LinearFlight::kUnknowns, [&] { return 20.0 * random.normal(); });
+    f.normal = rows.transpose() * rows;
+    Flight y;
+    y << f.p, f.v_before, f.v_after, 0.0;
+    f.right = f.normal * y;
+    return f;
+  };
+  const auto above = [](const LinearFlight& f, const Vec3& p, const Vec3& v, const Vec3& v_after, double delay) {
+    Flight off;
+    off << p - f.p, v - f.v_before, v_after - f.v_after, delay;
+    return 0.5 * off.dot(f.normal * off);
+  };
+  Problem problem;
+  problem.gravity = 0.0;
+  for (int i = 0; i < 10; ++i) {
+    const LinearFlight a = flight(), b = flight();
+    State base;
+    base.impulse = any(), base.mass_ratio = random.uniform(0.5, 2.0), base.time = 0.2;
+    const Touching touching{any(), 0.1 * any(), 0.1 * any(), any().normalized()};
+    const Mat3 sure = 1e3 * Mat3::Identity();
+    const Vec3 change_a = 0.1 * any(), change_b = 0.1 * any();
+    const auto [cost, s] = TouchingFit(problem, base, a, b)(touching, {change_a, sure}, {change_b, sure});
+    EXPECT_LT((s.v_after[0] - s.v[0] - s.impulse).norm() + ((s.v_after[1] - s.v[1]) * s.mass_ratio + s.impulse).norm(), 1e-9);
+    EXPECT_LT((s.p[0] - s.p[1] - touching.offset).norm(), 1e-12);
+    const auto flown = [&, s = s](const Vec3& p, const Vec3& v_a, const Vec3& v_b, double delay) {
+      return above(a, s.p[0] + p, s.v[0] + v_a, s.v_after[0] + v_a, s.time - base.time + delay) +
+             above(b, s.p[1] + p, s.v[1] + v_b, s.v_after[1] + v_b, s.time - base.time + delay);
+    };
+    const Vec3 none = Vec3::Zero(), turn_a = touching.arm_a.cross(s.impulse) - change_a, turn_b = -touching.arm_b.cross(s.impulse) / s.mass_ratio - change_b;
+    const double along = touching.normal.dot(s.impulse), size = s.impulse.norm(), slid = std::sqrt(size * size - along * along) / (0.4 * size);
+    const double pulled = std::min(0.0, along) / (0.05 * size), expected = flown(none, none, none, 0.0) + 500.0 * (turn_a.squaredNorm() + turn_b.squaredNorm());
+    EXPECT_NEAR(cost, expected + 0.5 * (slid * slid + pulled * pulled), 1e-6 * cost) << i;
+    const auto total = [&, s = s](double step, const Vec3& p, const Vec3& v_a, const Vec3& v_b, double delay) {
+      const double late = (s.time - base.time + step * delay) / 0.1;
+      return flown(step * p, step * v_a, step * v_b, step * delay) + 0.5 * late * late;
+    };
+    const double best = total(0.0, none, none, none, 0.0);
+    for (int k = 0; k < 20; ++k) EXPECT_GT(total(1e-3, any(), any(), any(), random.normal()), best);
+  }
+}
+
 /// A pebble: an octahedron whose faces are cut in four `rounds` times, blown up, stretched and dented a little.
 Body pebble(const Vec3& size, int rounds, Random& random) {
   TriangleMesh mesh;

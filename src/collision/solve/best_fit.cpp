@@ -44,21 +44,41 @@ double score_of(const Problem& problem, const Fit& fit) {
   return fit.cost + pixels * log_noise(problem.pixel_sigma, problem.noise_power) + angles * std::log(problem.orientation_sigma);
 }
 
+/// What a candidate says of the impact.
+struct Values {
+  double c, m;
+
+  bool are_near(const Values& other, double tolerance) const { return std::abs(other.c - c) < tolerance && std::abs(other.m / m - 1.0) < tolerance; }
+};
+
+Values values(const Candidate& x) { return {restitution<double>(x.problem, x.fit.state, values_of(x.problem, x.fit.state)), x.fit.state.mass_ratio}; }
+
+/// Most candidates come to the same few solutions; each is followed but once. The best come first.
+void merge(std::vector<Candidate>& candidates) {
+  constexpr double kScore = 1e-3, kValue = 1e-3;  // by which the same solution is off where descents end
+  std::vector<Candidate> apart;
+  std::vector<Values> known;
+  for (Candidate& candidate : candidates) {
+    const Values here = values(candidate);
+    bool is_known = false;
+    for (std::size_t i = apart.size(); i-- > 0 && !is_known && candidate.score - apart[i].score < kScore;) is_known = known[i].are_near(here, kValue);
+    if (is_known) continue;
+    apart.push_back(std::move(candidate));
+    known.push_back(here);
+  }
+  candidates = std::move(apart);
+}
+
 std::vector<Alternative> alternatives(const std::vector<Candidate>& candidates) {
   std::vector<Alternative> others;
-  const auto values = [](const Candidate& c) {
-    return std::pair{restitution<double>(c.problem, c.fit.state, values_of(c.problem, c.fit.state)), c.fit.state.mass_ratio};
-  };
-  std::vector<std::pair<double, double>> known = {values(candidates.front())};
+  std::vector<Values> known = {values(candidates.front())};
   for (const Candidate& candidate : candidates) {
     const double excess = candidate.score - candidates.front().score;
     if (excess > kAlike) break;
-    const auto [c, m] = values(candidate);
-    if (std::any_of(known.begin(), known.end(), [&, c = c, m = m](const auto& k) {
-          return std::abs(k.first - c) < kOtherValue && std::abs(k.second / m - 1.0) < kOtherValue;
-        }))
-      continue;
-    known.push_back({c, m});
+    const Values here = values(candidate);
+    if (std::any_of(known.begin(), known.end(), [&](const Values& k) { return here.are_near(k, kOtherValue); })) continue;
+    known.push_back(here);
+    const auto [c, m] = here;
     const char* what = !candidate.problem.orientations.empty() ? "other turning" : candidate.problem.fixed ? "another vertical" : "the other one in front";
     others.push_back({fmt::format("{} explains the data alike: c = {:.2f}", what, c) + (candidate.problem.fixed ? "" : fmt::format(", mass ratio {:.2f}", m)), c, m, 2.0 * excess});
   }
@@ -126,11 +146,13 @@ Solution best_fit(const Problem& problem, double time, int starts, Context& cont
     advance(candidates, kHopeless, context, [](const Candidate& c) { return approach(c.problem, c.fit.state); });
   }
   advance(candidates, kPoor, context, [](const Candidate& c) { return settle(c.problem, c.fit.state); });
-  for (int round = 0; round < kNoiseRounds; ++round)
+  for (int round = 0; round < kNoiseRounds; ++round) {
+    merge(candidates);
     advance(candidates, kUnlikely, context, [&](Candidate& c) {
       estimate_noise(problem, c.problem, c.fit.state);
       return settle(c.problem, c.fit.state);
     });
+  }
   if (candidates.empty()) return {problem, {}, {}, 0.0};
   const Candidate& best = candidates.front();
   return {best.problem, best.fit, alternatives(candidates), best.score};

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include "collision/solve/residuals.h"
 
+#include <ceres/cost_function.h>
 #include <ceres/loss_function.h>
-#include <ceres/sized_cost_function.h>
 
 #include <algorithm>
 
@@ -18,9 +18,12 @@ constexpr double kOrientationHuber = 2.0;  // in noise
 
 /// A term as a cost function; the state and its derivatives come from the evaluation that is under way.
 template <class Term>
-class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
+class TermCost : public ceres::CostFunction {
  public:
-  TermCost(Term term, const EvaluatedState& evaluation) : term_(std::move(term)), evaluation_(evaluation) {}
+  TermCost(Term term, const EvaluatedState& evaluation) : term_(std::move(term)), evaluation_(evaluation) {
+    set_num_residuals(Term::kResiduals);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(evaluation.steps.size()));
+  }
 
   /// False where a step led to where nothing can be computed.
   bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
@@ -28,10 +31,12 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
     const bool derive = jacobians && jacobians[0];
     compute(residuals, derive ? jacobians[0] : nullptr);
     return Eigen::Map<const Eigen::Matrix<double, kResiduals, 1>>(residuals).allFinite() &&
-           (!derive || Eigen::Map<const Eigen::Matrix<double, kResiduals * kUnknowns, 1>>(jacobians[0]).allFinite());
+           (!derive || Eigen::Map<const Eigen::VectorXd>(jacobians[0], kResiduals * free()).allFinite());
   }
 
  private:
+  Eigen::Index free() const { return static_cast<Eigen::Index>(evaluation_.steps.size()); }
+
   /// Row by row; no derivatives without `jacobian`.
   void compute(double* residuals, double* jacobian) const {
     constexpr int kResiduals = Term::kResiduals;
@@ -50,11 +55,11 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
       for (int i = 0; i < kParts; ++i) in[i] = Lean(parts[i]->a, i);
       std::array<Lean, kResiduals> r;
       term_.of_parts(in, r.data(), evaluation_.state);
-      Eigen::Map<Eigen::Matrix<double, kResiduals, kUnknowns, Eigen::RowMajor>> rows(jacobian);
       for (int k = 0; k < kResiduals; ++k) {
         residuals[k] = r[k].a;
-        rows.row(k).setZero();
-        for (int i = 0; i < kParts; ++i) rows.row(k) += r[k].v[i] * parts[i]->v.transpose();
+        Eigen::Map<Eigen::VectorXd> row(jacobian + k * free(), free());
+        row.setZero();
+        for (int i = 0; i < kParts; ++i) row += r[k].v[i] * parts[i]->v.head(free());
       }
     } else {
       if (!jacobian) {
@@ -65,7 +70,7 @@ class TermCost : public ceres::SizedCostFunction<Term::kResiduals, kUnknowns> {
       term_.of_state(evaluation_.wide, r.data());
       for (int k = 0; k < kResiduals; ++k) {
         residuals[k] = r[k].a;
-        Eigen::Map<Eigen::Matrix<double, kUnknowns, 1>>(jacobian + k * kUnknowns) = r[k].v;
+        Eigen::Map<Eigen::VectorXd>(jacobian + k * free(), free()) = r[k].v.head(free());
       }
     }
   }
@@ -90,7 +95,7 @@ class Adder {
 
   template <class Term>
   void add(const std::string& name, Term term, ceres::LossFunction* loss = nullptr) {
-    blocks.push_back({name, ceres_.AddResidualBlock(new TermCost<Term>(std::move(term), evaluation_), loss, evaluation_.unknowns.data())});
+    blocks.push_back({name, ceres_.AddResidualBlock(new TermCost<Term>(std::move(term), evaluation_), loss, evaluation_.steps.data())});
   }
   std::vector<NamedBlock> blocks;
 
@@ -106,8 +111,8 @@ double touch_sigma(const Problem& problem) {
 
 }  // namespace
 
-EvaluatedState::EvaluatedState(const Problem& problem, const State& reference)
-    : problem(problem), reference(reference), turned(problem.orientations.size()), places(problem.points.size()) {
+EvaluatedState::EvaluatedState(const Problem& problem, const State& reference, std::vector<int> free)
+    : problem(problem), reference(reference), free(std::move(free)), steps(this->free.size()), turned(problem.orientations.size()), places(problem.points.size()) {
   const auto outwards = [](const auto& observations, int body, bool after, std::vector<SeenOutwards>& all) {
     SeenOutwards side{body, after, {}};
     for (std::size_t i = 0; i < observations.size(); ++i)
@@ -121,6 +126,12 @@ EvaluatedState::EvaluatedState(const Problem& problem, const State& reference)
       outwards(problem.points, body, after, flights_);
       if (problem.terms.orientation) outwards(problem.orientations, body, after, turnings_);
     }
+}
+
+std::array<double, kUnknowns> EvaluatedState::unknowns() const {
+  std::array<double, kUnknowns> all = {};
+  for (std::size_t i = 0; i < free.size(); ++i) all[static_cast<std::size_t>(free[i])] = steps[i];
+  return all;
 }
 
 void EvaluatedState::fly(const SeenOutwards& flight, bool derivatives) {
@@ -153,7 +164,8 @@ void EvaluatedState::fly(const SeenOutwards& flight, bool derivatives) {
 
 void EvaluatedState::PrepareForEvaluation(bool jacobians, bool new_point) {
   if (!new_point && (!jacobians || has_derivatives)) return;
-  state = unpack<double>(problem, reference, unknowns.data());
+  const std::array<double, kUnknowns> at = unknowns();
+  state = unpack<double>(problem, reference, at.data());
   has_derivatives = jacobians;
   for (const SeenOutwards& turning : turnings_) {
     const auto o = static_cast<std::size_t>(turning.body);
@@ -164,7 +176,8 @@ void EvaluatedState::PrepareForEvaluation(bool jacobians, bool new_point) {
   }
   if (jacobians) {
     std::array<Wide, kUnknowns> u;
-    for (int i = 0; i < kUnknowns; ++i) u[i] = Wide(unknowns[i], i);
+    u.fill(Wide(0.0));
+    for (std::size_t i = 0; i < free.size(); ++i) u[static_cast<std::size_t>(free[i])] = Wide(steps[i], static_cast<int>(i));
     wide = unpack<Wide>(problem, reference, u.data());
   }
   for (const SeenOutwards& flight : flights_) fly(flight, jacobians);

@@ -32,14 +32,17 @@ struct SeenOutwards {
 
 /// The unknowns and the state at them, made once for all terms of an evaluation.
 struct EvaluatedState : ceres::EvaluationCallback {
-  EvaluatedState(const Problem& problem, const State& reference);
+  /// `free` are the unknowns that are varied.
+  EvaluatedState(const Problem& problem, const State& reference, std::vector<int> free);
   void PrepareForEvaluation(bool jacobians, bool new_point) override;
+  std::array<double, kUnknowns> unknowns() const;
 
   const Problem& problem;
   const State& reference;  ///< the unknowns are steps from it
-  std::array<double, kUnknowns> unknowns = {};
+  std::vector<int> free;
+  std::vector<double> steps;  ///< of the free ones
   StateT<double> state;
-  StateT<Wide> wide;  ///< with derivatives, if they were asked for
+  StateT<Wide> wide;  ///< with derivatives along the steps, if they were asked for
   std::vector<TurnedEnd> turned;  ///< to where each orientation of the problem was seen
   std::vector<SeenPlace> places;  ///< where each point of the problem was seen
   bool has_derivatives = false;

@@ -45,8 +45,8 @@ Vec3T<T> angular_velocity(const QuatT<T>& q, const Vec3T<T>& h, const Eigen::Vec
   return q * Vec3T<T>(inner.x() / inertia.x(), inner.y() / inertia.y(), inner.z() / inertia.z());
 }
 
-/// Where a torque-free body has turned to after `dt` (s): steps on the rotation group of fourth order (Munthe-Kaas, "High order Runge–Kutta
-/// methods on manifolds", 1999) of at most 0.3 rad; exact for a sphere.
+/// Where a torque-free body has turned to after `dt` (s): steps of at most 0.4 rad and fourth order by Magnus's series (Iserles et al., "Lie-group
+/// methods", 2000), which keep the momentum; exact for a sphere.
 Eigen::Quaterniond turned(const Eigen::Quaterniond& q, const Eigen::Vector3d& h, const Eigen::Vector3d& inertia, double dt);
 
 /// Where a torque-free body has turned to, and how that turns (a rotation vector) with the momentum.

@@ -4,7 +4,6 @@
 
 #include <ceres/cost_function.h>
 #include <ceres/covariance.h>
-#include <ceres/manifold.h>
 #include <ceres/solver.h>
 
 #include <algorithm>
@@ -20,12 +19,10 @@ namespace {
 
 constexpr double kMostRatio = 1000.0;  // of masses: beyond, the heavier body might as well be fixed
 
-/// The unknowns that nothing in the shot tells of, or that are given.
-std::vector<int> held_unknowns(const Problem& problem) {
-  std::vector<int> held;
-  const auto hold = [&](int from, int count) {
-    for (int i = 0; i < count; ++i) held.push_back(from + i);
-  };
+/// The unknowns but those that nothing in the shot tells of, or that are given.
+std::vector<int> free_unknowns(const Problem& problem) {
+  std::array<bool, kUnknowns> held = {};
+  const auto hold = [&](int from, int count) { std::fill_n(held.begin() + from, count, true); };
   if (problem.gravity == 0.0) hold(kDown, 2);
   if (problem.fixed || problem.mass_ratio) hold(kLogMass, 1);
   for (int o = 0; o < 2; ++o) {
@@ -37,8 +34,10 @@ std::vector<int> held_unknowns(const Problem& problem) {
     if (!problem.terms.soft || still || !problem.turns(o)) hold(kHAfter + 3 * o, 3);
   }
   if (problem.is_of_centres()) hold(kX, 3);
-  std::sort(held.begin(), held.end());
-  return held;
+  std::vector<int> free;
+  for (int i = 0; i < kUnknowns; ++i)
+    if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
+  return free;
 }
 
 /// Where the shapes meet in this state; nothing where a shape or its orientation is not known.
@@ -96,15 +95,12 @@ std::pair<double, double> impact_times(const Problem& problem) {
 /// A Ceres problem with the evaluation that its terms share.
 struct Setup {
   Setup(const Problem& problem, const State& reference, const std::optional<Proximity>& touch)
-      : evaluation(problem, reference), ceres(options()), blocks(add_residuals(touch, evaluation, ceres)) {
-    ceres.SetManifold(unknowns(), new ceres::SubsetManifold(kUnknowns, held_unknowns(problem)));
+      : evaluation(problem, reference, free_unknowns(problem)), ceres(options()), blocks(add_residuals(touch, evaluation, ceres)) {
     const auto [earliest, latest] = impact_times(problem);
-    ceres.SetParameterLowerBound(unknowns(), kTime, std::min(0.0, earliest - reference.time));
-    ceres.SetParameterUpperBound(unknowns(), kTime, std::max(0.0, latest - reference.time));
-    ceres.SetParameterLowerBound(unknowns(), kLogMass, std::min(0.0, std::log(1.0 / kMostRatio / reference.mass_ratio)));
-    ceres.SetParameterUpperBound(unknowns(), kLogMass, std::max(0.0, std::log(kMostRatio / reference.mass_ratio)));
+    bound(kTime, earliest - reference.time, latest - reference.time);
+    bound(kLogMass, std::log(1.0 / kMostRatio / reference.mass_ratio), std::log(kMostRatio / reference.mass_ratio));
   }
-  double* unknowns() { return evaluation.unknowns.data(); }
+  double* steps() { return evaluation.steps.data(); }
 
   EvaluatedState evaluation;
   ceres::Problem ceres;
@@ -115,6 +111,14 @@ struct Setup {
     ceres::Problem::Options options;
     options.evaluation_callback = &evaluation;
     return options;
+  }
+  /// An unknown's step stays between the two, and may be none.
+  void bound(int unknown, double low, double high) {
+    const auto at = std::find(evaluation.free.begin(), evaluation.free.end(), unknown);
+    if (at == evaluation.free.end()) return;
+    const int i = static_cast<int>(at - evaluation.free.begin());
+    ceres.SetParameterLowerBound(steps(), i, std::min(0.0, low));
+    ceres.SetParameterUpperBound(steps(), i, std::max(0.0, high));
   }
 };
 
@@ -132,7 +136,7 @@ bool descend(const Problem& problem, const std::optional<Proximity>& touch, int 
   ceres::Solver::Summary summary;
   ceres::Solve(options, &setup.ceres, &summary);
   if (!summary.IsSolutionUsable()) return false;
-  state = state_at(problem, reference, setup.unknowns());
+  state = state_at(problem, reference, setup.evaluation.unknowns().data());
   cost = summary.final_cost;
   return true;
 }
@@ -230,12 +234,13 @@ void add_covariance(const Problem& problem, Fit& fit) {
   options.min_reciprocal_condition_number = 1e-14;
   options.num_threads = 1;
   ceres::Covariance covariance(options);
-  const double* block = setup.unknowns();
+  const double* block = setup.steps();
+  const std::vector<int>& free = setup.evaluation.free;
   fit.covariance = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
   const std::vector<const double*> blocks = {block};
   if (!covariance.Compute(blocks, &setup.ceres)) return;
-  Eigen::Matrix<double, kUnknowns, kUnknowns, Eigen::RowMajor> all;
-  if (covariance.GetCovarianceBlock(block, block, all.data())) fit.covariance = all;
+  Eigen::MatrixXd of_steps(free.size(), free.size());  // symmetric, so in either order
+  if (covariance.GetCovarianceBlock(block, block, of_steps.data())) fit.covariance(free, free) = of_steps;
 }
 
 Estimate restitution_of(const Problem& problem, const Fit& fit) {

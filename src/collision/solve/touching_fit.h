@@ -10,7 +10,7 @@
 namespace unseen::collision {
 
 /// Two bodies' flights joined by an impact at a given place on both: impulse, mass ratio, positions and velocities that explain centres and
-/// momenta best, from equations that are linear but for the mass ratio.
+/// momenta best, from equations that are linear but for the mass ratio. Everything but how both bodies' velocities change is eliminated once.
 class TouchingFit {
  public:
   /// `base` has the impact's time, its impulse and the mass ratio as the centres alone tell them; the flights are around that time.
@@ -29,10 +29,26 @@ class TouchingFit {
   Result operator()(const Touching& touching, const Turn& turn_a, const Turn& turn_b) const;
 
  private:
+  static constexpr int kFlights = 10;  // place of the first body, velocities of both before, delay
+  static constexpr int kChanges = 6;   // of both velocities
+  using Flights = Eigen::Matrix<double, kFlights, 1>;
+  using Changes = Eigen::Matrix<double, kChanges, 1>;
+
+  /// With the best flights for given changes, ½ χ² = ½ yᵀ normal y − (right + right_of·offset) y + a constant; the offset is that of the centres.
+  Flights flights(const Vec3& offset, const Changes& changes) const { return flights_ + flights_of_ * offset - flights_by_ * changes; }
+  double cost(const Vec3& offset, const Changes& changes) const;
+
   const Problem& problem_;
   const State& base_;
-  const LinearFlight &a_, &b_;
-  double apart_;  ///< ½ χ² of both flights on their own
+  Eigen::Matrix<double, kChanges, kChanges> normal_;
+  Changes right_;
+  Eigen::Matrix<double, kChanges, 3> right_of_;
+  Flights flights_;
+  Eigen::Matrix<double, kFlights, 3> flights_of_;
+  Eigen::Matrix<double, kFlights, kChanges> flights_by_;
+  double constant_;
+  Vec3 constant_along_;
+  Mat3 constant_across_;
 };
 
 }  // namespace unseen::collision
