@@ -20,6 +20,8 @@ constexpr double kCarriesMost = 0.6;  // of the points of all pieces
 constexpr double kClearlyMore = 1.5;  // evidence that it takes to turn a picture
 constexpr double kFills = 0.5, kHardlyAny = 0.05;  // of a picture
 constexpr double kSeldom = 0.25;      // evidence counts so much of a picture that is upside down or aslant; portrait is usual
+constexpr double kUnder = 0.03, kHardlyAnyUnder = 0.002;  // m below a floor; share of all points that may be
+constexpr double kOpposite = 0.25;    // of a floor's points: as much facing it is another wall of a bin
 const double kTurned = radians(60.0), kPortrait = radians(25.0), kSteep = std::sin(radians(30.0)), kStraight = std::cos(radians(20.0));
 
 /// Connected points beside the large planes, and how it is linked to each of them.
@@ -146,6 +148,21 @@ bool fills_the_picture(const Scan& scan, const std::vector<Level>& planes, const
   return facing < kHardlyAny * all;
 }
 
+/// Whether what faces `up` is a floor, of which a level camera may see but a strip: nearly nothing lies below it, nor above it a lid or another side of a
+/// bin that is seen from above.
+bool is_below_all(const Scan& scan, const std::vector<Level>& planes, const Vec3& up) {
+  const Level* lowest = nullptr;
+  double facing_down = 0;
+  for (const Level& level : planes) {
+    const double cosine = level.plane.normal.dot(up);
+    if (cosine < -kHorizontal) facing_down += points_on(scan, level);
+    if (cosine > kHorizontal && (!lowest || points_on(scan, level) > points_on(scan, *lowest))) lowest = &level;
+  }
+  if (!lowest || facing_down > kOpposite * points_on(scan, *lowest)) return false;
+  const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) { return lowest->plane.signed_distance(p) < -kUnder; });
+  return static_cast<double>(below) < kHardlyAnyUnder * static_cast<double>(scan.points.size());
+}
+
 }  // namespace
 
 bool is_turned(const Vec3& up) {
@@ -173,7 +190,7 @@ FoundUp find_up(const Scan& scan) {
     const double share = carried_share(scan, planes, up).value_or(straight ? 1.0 : 0.0), told = evidence(scan, large, up, share);
     if (share < kCarriesMost || told <= most) continue;
     most = told;
-    found.ambiguous = told < kClearlyMore * usual_evidence;
+    found.ambiguous = told < kClearlyMore * usual_evidence || (straight && is_below_all(scan, planes, usual));
     found.up = found.ambiguous ? usual : up;
   }
   return found;
