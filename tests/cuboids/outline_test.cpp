@@ -2,6 +2,9 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "cuboids/boxes/upright_sides.h"
 #include "perception_scenes.h"
 
 namespace unseen::cuboids::test {
@@ -48,6 +51,41 @@ TEST(Outline, OfWhatIsWiderAboveDoesNotLean) {  // one end upright, the other 7 
   const Perceived p = perceive(render(scene));
   const OrientedBox& box = nearest(p.fitted, {0, 0.6, 0.1}).box;
   EXPECT_NEAR(box.center.x() - box.half_size.x(), -0.06, 0.004);
+}
+
+/// Each face that noise breaks off a front is turned a little, all together are not. A row of pixels, as of a top that is seen along itself, is no side.
+TEST(Boxes, FacesOfOneSideAreOne) {
+  constexpr double kSpacing = 0.005;
+  Observation seen;
+  Random random(3);
+  const Vec3 along(std::cos(0.2), std::sin(0.2), 0), out(std::sin(0.2), -std::cos(0.2), 0);
+  std::vector<Face> faces;
+  const auto add = [&](const Vec3& from, int columns, int rows, double turn) {
+    Face face;
+    for (int u = 0; u < columns; ++u)
+      for (int v = 0; v < rows; ++v) {
+        face.points.push_back(static_cast<int>(seen.points.size()));
+        seen.points.push_back(from + kSpacing * (u * along + v * Vec3::UnitZ()) + 0.005 * random.normal() * out);
+        face.center += seen.points.back() / (columns * rows);
+      }
+    const Vec3 normal = Eigen::AngleAxisd(radians(turn), Vec3::UnitZ()) * out;
+    face.plane = {normal, normal.dot(face.center)};
+    face.length = kSpacing * std::max(columns, rows) / std::sqrt(12.0);
+    face.width = kSpacing * std::sqrt((std::pow(std::min(columns, rows), 2) - 1.0) / 12.0);
+    faces.push_back(face);
+  };
+  for (int u = 0; u < 4; ++u)
+    for (int v = 0; v < 5; ++v) add(20 * kSpacing * (u * along + v * Vec3::UnitZ()), 20, 20, 4.0 + v);
+  add(0.3 * out, 60, 1, -11.0);
+  seen.graph.sigma.assign(seen.points.size(), 0.005f);
+  seen.graph.spacing.assign(seen.points.size(), static_cast<float>(kSpacing));
+  std::vector<const Face*> all;
+  for (const Face& face : faces) all.push_back(&face);
+  const std::vector<Face> sides = upright_sides(seen, all);
+  ASSERT_EQ(sides.size(), 1u);
+  EXPECT_EQ(sides[0].points.size(), 20u * 400u);
+  EXPECT_LT(std::acos(std::min(1.0, sides[0].plane.normal.dot(out))), radians(0.2));
+  EXPECT_EQ(sides[0].plane.normal.z(), 0.0);
 }
 
 /// Few points of its narrow side are seen, and their plane is some degrees off.

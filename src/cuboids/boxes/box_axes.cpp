@@ -10,6 +10,7 @@
 
 #include "core/linear.h"
 #include "cuboids/boxes/outline.h"
+#include "cuboids/boxes/upright_sides.h"
 #include "cuboids/surfaces/supports.h"
 #include "unseen/core/convex.h"
 #include "unseen/core/quantile.h"
@@ -190,12 +191,11 @@ Mat3 free_axes(const Observation& seen, std::vector<const Face*> faces) {
 /// What upright faces tell of the turn of a level box.
 Vec2 turn_of_faces(const Observation& seen, std::span<const Face* const> faces) {
   Vec2 sum = Vec2::Zero();
-  for (const Face* face : faces) {
-    const Vec3& n = face->plane.normal;
-    if (std::abs(n.z()) > kUprightSine) continue;
-    const Vec3 along = Vec3::UnitZ().cross(n).normalized();
-    if (spread_along(seen, *face, along) * std::sqrt(12.0) < kShortestForYaw) continue;
-    const double error = direction_error(seen, *face, along).all();
+  for (const Face& side : upright_sides(seen, faces)) {
+    const Vec3& n = side.plane.normal;
+    const Vec3 along(-n.y(), n.x(), 0.0);
+    if (spread_along(seen, side, along) * std::sqrt(12.0) < kShortestForYaw) continue;
+    const double error = direction_error(seen, side, along).all();
     sum += quarter_turn(std::atan2(n.y(), n.x()), 1.0 / (error * error));
   }
   return sum;
