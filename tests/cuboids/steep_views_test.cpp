@@ -27,6 +27,39 @@ TEST(SteepViews, UpIsNotAwayFromTheWallBehindCupboards) {
       }
 }
 
+/// A level camera before a wall sees but a strip of the floor, as one that looks down into a bin sees its side.
+TEST(SteepViews, UpIsAwayFromAStripOfFloorBeforeAWall) {
+  for (const double wall : {2.9, 3.2, 3.4})
+    for (const double noise : {0.0, 0.0015}) {
+      Scene scene;
+      scene.height = 1.3 + 0.4 * (wall - 2.9);
+      scene.pitch = radians(2.0);
+      scene.noise = noise;
+      scene.boxes = {upright(-0.1, wall - 0.5, 0, {0.8, 0.5, 1.9}, -10), upright(0.5, wall - 0.75, 0, {0.4, 0.3, 0.3}, 10), upright(0, wall, 0, {8.0, 0.1, 3.0}, -10)};
+      Context context;
+      const Vec3 up = observe(render(scene), {}, context).T_world_camera.rotation.row(2).transpose(), truth = camera_of(scene).rotation.row(2).transpose();
+      EXPECT_GT(up.dot(truth), 0.99) << wall << " m, noise " << noise;
+    }
+}
+
+/// Straight down into a bin, or level into a shelf: nothing in the picture tells.
+TEST(SteepViews, UpIsDoubtedWhereTheCameraLooksStraightIntoABin) {
+  for (const double pitch : {35.0, 88.0}) {
+    Scene scene;
+    scene.height = 0.8;
+    scene.pitch = radians(pitch);
+    scene.noise = 0.0005;
+    const double y = scene.height / std::tan(scene.pitch);
+    scene.boxes = {upright(0, y, 0, {0.62, 0.62, 0.02}, 0), upright(0, y - 0.3, 0.02, {0.62, 0.02, 0.3}, 0), upright(0, y + 0.3, 0.02, {0.62, 0.02, 0.3}, 0),
+                   upright(-0.3, y, 0.02, {0.02, 0.58, 0.3}, 0), upright(0.3, y, 0.02, {0.02, 0.58, 0.3}, 0), upright(0.05, y, 0.02, {0.2, 0.15, 0.1}, 20)};
+    Context context;
+    observe(render(scene), {}, context);
+    const std::vector<std::string> warnings = context.take_warnings();
+    const auto told = std::count_if(warnings.begin(), warnings.end(), [](const std::string& w) { return w.find("give it as \"up\"") != std::string::npos; });
+    EXPECT_EQ(told, pitch > 80.0 ? 1 : 0) << pitch;
+  }
+}
+
 /// Of a crate under a box turned across it no more than the corners of its top are seen.
 TEST(SteepViews, TheCornersThatLookOutUnderABoxTurnedAcrossAreOfOneCrate) {
   int whole = 0;

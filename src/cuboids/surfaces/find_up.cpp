@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "cuboids/surfaces/supports.h"
@@ -18,10 +19,11 @@ constexpr int kFewestLinks = 8;       // between a piece and what it stands on
 constexpr double kOff = 6.0;          // σ from every plane
 constexpr double kCarriesMost = 0.6;  // of the points of all pieces
 constexpr double kClearlyMore = 1.5;  // evidence that it takes to turn a picture
-constexpr double kFills = 0.5, kHardlyAny = 0.05;  // of a picture
+constexpr double kFills = 0.5, kFillsWithinSides = 0.3, kHardlyAny = 0.05;  // of a picture
 constexpr double kSeldom = 0.25;      // evidence counts so much of a picture that is upside down or aslant; portrait is usual
 constexpr double kUnder = 0.03, kHardlyAnyUnder = 0.002;  // m below a floor; share of all points that may be
-constexpr double kOpposite = 0.25;    // of a floor's points: as much facing it is another wall of a bin
+constexpr double kOpposite = 0.25;    // of a floor's points: as much facing it is another wall of a bin …
+constexpr double kWidestBin = 1.5;    // m, … and lower than any room
 const double kTurned = radians(60.0), kPortrait = radians(25.0), kSteep = std::sin(radians(30.0)), kStraight = std::cos(radians(20.0));
 
 /// Connected points beside the large planes, and how it is linked to each of them.
@@ -138,27 +140,44 @@ double points_on(const Scan& scan, const Level& level) {
   return count;
 }
 
-/// Whether a camera looks straight at a plane that fills most of its picture, as at a floor from above, and hardly any of it faces `usual`.
-bool fills_the_picture(const Scan& scan, const std::vector<Level>& planes, const Level& level, const Vec3& usual) {
-  const double all = static_cast<double>(scan.points.size());
-  if (level.plane.normal.z() > -kStraight || points_on(scan, level) < kFills * all) return false;
-  double facing = 0;
-  for (const Level& other : planes)
-    if (other.plane.normal.dot(usual) > kHorizontal) facing += points_on(scan, other);
-  return facing < kHardlyAny * all;
+double points_facing(const Scan& scan, const std::vector<Level>& planes, const Vec3& direction) {
+  double count = 0;
+  for (const Level& level : planes)
+    if (level.plane.normal.dot(direction) > kHorizontal) count += points_on(scan, level);
+  return count;
+}
+
+/// Whether what faces `side` and what faces it are two sides of a bin into which the camera may look: as large, and nearer to each other than floor and ceiling.
+bool are_sides_of_bin(const Scan& scan, const std::vector<Level>& planes, const Vec3& side) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Level& one : planes)
+    for (const Level& other : planes)
+      if (one.plane.normal.dot(side) > kHorizontal && other.plane.normal.dot(side) < -kHorizontal)
+        nearest = std::min(nearest, -(one.plane.offset + other.plane.offset));
+  const double one = points_facing(scan, planes, side), other = points_facing(scan, planes, -side);
+  return nearest > 0.0 && nearest < kWidestBin && std::min(one, other) > kOpposite * std::max(one, other);
+}
+
+/// Whether a camera looks straight at what fills so much of its picture, as at a floor from above.
+bool fills_the_picture(const Scan& scan, const Vec3& normal, double points, double share) {
+  return normal.z() < -kStraight && points >= share * static_cast<double>(scan.points.size());
+}
+
+/// Whether the camera looks straight at the bottom of a bin, or at the back of a shelf.
+bool looks_into_bin(const Scan& scan, const std::vector<Level>& planes, const Vec3& side) {
+  return are_sides_of_bin(scan, planes, side) && std::any_of(planes.begin(), planes.end(), [&](const Level& level) {
+    const Vec3& n = level.plane.normal;
+    return std::abs(n.dot(side)) < kVertical && fills_the_picture(scan, n, points_facing(scan, planes, n), kFillsWithinSides);
+  });
 }
 
 /// Whether what faces `up` is a floor, of which a level camera may see but a strip: nearly nothing lies below it, nor above it a lid or another side of a
 /// bin that is seen from above.
 bool is_below_all(const Scan& scan, const std::vector<Level>& planes, const Vec3& up) {
   const Level* lowest = nullptr;
-  double facing_down = 0;
-  for (const Level& level : planes) {
-    const double cosine = level.plane.normal.dot(up);
-    if (cosine < -kHorizontal) facing_down += points_on(scan, level);
-    if (cosine > kHorizontal && (!lowest || points_on(scan, level) > points_on(scan, *lowest))) lowest = &level;
-  }
-  if (!lowest || facing_down > kOpposite * points_on(scan, *lowest)) return false;
+  for (const Level& level : planes)
+    if (level.plane.normal.dot(up) > kHorizontal && (!lowest || points_on(scan, level) > points_on(scan, *lowest))) lowest = &level;
+  if (!lowest || points_facing(scan, planes, -up) > kOpposite * points_on(scan, *lowest)) return false;
   const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) { return lowest->plane.signed_distance(p) < -kUnder; });
   return static_cast<double>(below) < kHardlyAnyUnder * static_cast<double>(scan.points.size());
 }
@@ -183,9 +202,11 @@ FoundUp find_up(const Scan& scan) {
   }
   const double usual_evidence = evidence(scan, large, usual, carried_share(scan, planes, usual).value_or(1.0));
   double most = usual_evidence;
+  found.ambiguous = looks_into_bin(scan, planes, usual);
+  const double hardly_any = kHardlyAny * static_cast<double>(scan.points.size());
   for (const Level& level : large_or_facing(planes, usual)) {
     const Vec3& up = level.plane.normal;
-    const bool straight = fills_the_picture(scan, planes, level, usual);
+    const bool straight = points_facing(scan, planes, usual) < hardly_any && fills_the_picture(scan, up, points_on(scan, level), kFills);
     if (!(is_turned(up) || straight) || up.dot(usual) > kHorizontal || evidence(scan, large, up, 1.0) <= most) continue;
     const double share = carried_share(scan, planes, up).value_or(straight ? 1.0 : 0.0), told = evidence(scan, large, up, share);
     if (share < kCarriesMost || told <= most) continue;
