@@ -60,8 +60,10 @@ void merge(std::vector<Candidate>& candidates) {
   std::vector<Values> known;
   for (Candidate& candidate : candidates) {
     const Values here = values(candidate);
+    const Vec3& impulse = candidate.fit.state.impulse;
     bool is_known = false;
-    for (std::size_t i = apart.size(); i-- > 0 && !is_known && candidate.score - apart[i].score < kScore;) is_known = known[i].are_near(here, kValue);
+    for (std::size_t i = apart.size(); i-- > 0 && !is_known && candidate.score - apart[i].score < kScore;)
+      is_known = known[i].are_near(here, kValue) && (apart[i].fit.state.impulse - impulse).norm() < kValue * impulse.norm();
     if (is_known) continue;
     apart.push_back(std::move(candidate));
     known.push_back(here);

@@ -21,7 +21,7 @@ Quaterniond small_rotation(const Vector3d& r) {
 
 int steps_of(const Vector3d& h, const Vector3d& inertia, double dt) {
   constexpr double kTurn = 0.4;         // rad
-  constexpr double kMostSteps = 112.0;  // 45 rad: faster bodies are beyond what a video shows
+  constexpr double kMostSteps = 150.0;  // 60 rad: faster bodies are beyond what a video shows
   return static_cast<int>(std::min(kMostSteps, std::max(1.0, std::ceil(h.norm() / inertia.minCoeff() * std::abs(dt) / kTurn))));
 }
 

@@ -147,15 +147,16 @@ double points_facing(const Scan& scan, const std::vector<Level>& planes, const V
   return count;
 }
 
-/// Whether what faces `side` and what faces it are two sides of a bin into which the camera may look: as large, and nearer to each other than floor and ceiling.
+/// Whether what faces `side` and what faces it are as large, and nearer to each other than floor and ceiling.
 bool are_sides_of_bin(const Scan& scan, const std::vector<Level>& planes, const Vec3& side) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Level& one : planes)
-    for (const Level& other : planes)
-      if (one.plane.normal.dot(side) > kHorizontal && other.plane.normal.dot(side) < -kHorizontal)
-        nearest = std::min(nearest, -(one.plane.offset + other.plane.offset));
+    for (const Level& other : planes) {
+      if (one.plane.normal.dot(side) < kHorizontal || other.plane.normal.dot(side) > -kHorizontal) continue;
+      if (const double between = -(one.plane.offset + other.plane.offset); between > 0.0) nearest = std::min(nearest, between);
+    }
   const double one = points_facing(scan, planes, side), other = points_facing(scan, planes, -side);
-  return nearest > 0.0 && nearest < kWidestBin && std::min(one, other) > kOpposite * std::max(one, other);
+  return nearest < kWidestBin && std::min(one, other) > kOpposite * std::max(one, other);
 }
 
 /// Whether a camera looks straight at what fills so much of its picture, as at a floor from above.
@@ -163,11 +164,12 @@ bool fills_the_picture(const Scan& scan, const Vec3& normal, double points, doub
   return normal.z() < -kStraight && points >= share * static_cast<double>(scan.points.size());
 }
 
-/// Whether the camera looks straight at the bottom of a bin, or at the back of a shelf.
+/// Whether the camera looks straight at the bottom of a bin, or at the back of a shelf, between its four sides.
 bool looks_into_bin(const Scan& scan, const std::vector<Level>& planes, const Vec3& side) {
   return are_sides_of_bin(scan, planes, side) && std::any_of(planes.begin(), planes.end(), [&](const Level& level) {
     const Vec3& n = level.plane.normal;
-    return std::abs(n.dot(side)) < kVertical && fills_the_picture(scan, n, points_facing(scan, planes, n), kFillsWithinSides);
+    return std::abs(n.dot(side)) < kVertical && fills_the_picture(scan, n, points_facing(scan, planes, n), kFillsWithinSides) &&
+           are_sides_of_bin(scan, planes, n.cross(side).normalized());
   });
 }
 
@@ -211,7 +213,7 @@ FoundUp find_up(const Scan& scan) {
     const double share = carried_share(scan, planes, up).value_or(straight ? 1.0 : 0.0), told = evidence(scan, large, up, share);
     if (share < kCarriesMost || told <= most) continue;
     most = told;
-    found.ambiguous = told < kClearlyMore * usual_evidence || (straight && is_below_all(scan, planes, usual));
+    found.ambiguous = told < kClearlyMore * usual_evidence || (straight && usual_evidence > 0.0 && is_below_all(scan, planes, usual));
     found.up = found.ambiguous ? usual : up;
   }
   return found;
