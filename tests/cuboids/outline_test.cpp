@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cuboids/boxes/outline.h"
 #include "cuboids/boxes/upright_sides.h"
 #include "perception_scenes.h"
 
@@ -86,6 +87,37 @@ TEST(Boxes, FacesOfOneSideAreOne) {
   EXPECT_EQ(sides[0].points.size(), 20u * 400u);
   EXPECT_LT(std::acos(std::min(1.0, sides[0].plane.normal.dot(out))), radians(0.2));
   EXPECT_EQ(sides[0].plane.normal.z(), 0.0);
+}
+
+/// Of a top that is seen along itself a few rows of pixels are seen: an edge is told no better than they let it turn.
+TEST(Outline, OfATopSeenAlongItselfIsAsVagueAsItsRows) {
+  int told = 0;
+  for (const double height : {1.03, 1.06, 1.1, 1.15, 1.25})
+    for (const double yaw : {-25.0, -10.0, -4.0, 3.0, 8.0, 20.0}) {
+      Scene scene;
+      scene.height = height;
+      scene.pitch = radians(2.0);
+      scene.noise = 0.0002;
+      scene.boxes = {upright(-0.1, 2.6, 0, {0.8, 0.5, 1.0}, yaw)};
+      Context context;
+      const RgbdFrame frame = render(scene);
+      const Observation seen = observe(frame, {}, context);
+      const DepthView view(frame, seen.T_world_camera, scene.noise);
+      std::vector<int> group(seen.points.size(), -1);
+      for (std::size_t i = 0; i < group.size(); ++i)
+        if (seen.support_of_point[i] < 0) group[i] = 0;
+      const Faces faces = grow_faces(seen.points, seen.graph, group, seen.T_world_camera.translation, 24);
+      std::vector<const Face*> all;
+      for (const Face& face : faces.faces) all.push_back(&face);
+      const Vec3 along = seen.T_world_camera.rotation * (camera_of(scene).rotation.transpose() * Vec3(scene.boxes[0].axes.col(0)));
+      const double truth = std::atan2(along.y(), along.x());
+      const Vec2 sum = turn_of_outline(seen, view, all, truth);
+      if (sum.isZero()) continue;
+      ++told;
+      const double off = std::remainder(std::atan2(sum.y(), sum.x()) - 4.0 * truth, 2.0 * kPi) / 4.0;
+      EXPECT_LT(std::abs(off) * std::sqrt(sum.norm()), 3.0) << height << " m, " << yaw << " degrees: off by " << degrees(off);
+    }
+  EXPECT_GT(told, 10);
 }
 
 /// Few points of its narrow side are seen, and their plane is some degrees off.

@@ -53,6 +53,7 @@ std::vector<Vec2> free_ends(const Observation& seen, const DepthView& view, cons
 
 struct Slope {
   double angle = 0, error = 0;  ///< rad
+  double low = 0, high = 0;     ///< m: from where to where the ends reach
 };
 
 /// Regression line of ends, without those far off it.
@@ -70,9 +71,20 @@ std::optional<Slope> slope_of(std::vector<Vec2> ends) {
     const auto off = [&](const Vec2& e) { return std::abs((e - mean).y() - slope * (e - mean).x()); };
     for (const Vec2& e : ends) squares += off(e) * off(e);
     const double rms = std::sqrt(squares / (count - 2.0));
-    if (round == kTrimRounds) return Slope{std::atan(slope), rms * std::sqrt(kSmoothed / xx)};
+    if (round == kTrimRounds) return Slope{std::atan(slope), rms * std::sqrt(kSmoothed / xx), ends.front().x(), ends.back().x()};
     std::erase_if(ends, [&](const Vec2& e) { return off(e) > kTrim * rms; });
   }
+}
+
+/// rad: how far an edge may turn before the pixels that see its ends step over one another; on a face that is seen along itself their rows are far apart.
+/// An edge that crosses several rows or columns of them is known so much better.
+double step_error(const DepthView& view, const Face& face, const Slope& edge, const Vec3& along, const Vec3& out) {
+  const Vec3& n = face.plane.normal;
+  const Vec3 ray = (face.center - view.viewpoint()).normalized(), away = (ray - ray.dot(n) * n).normalized(), beside = n.cross(away);
+  const double column = view.spacing(face.center), row = column / std::max(std::abs(ray.dot(n)), 1e-3), length = edge.high - edge.low;
+  const Vec3 run = length * (std::cos(edge.angle) * along + std::sin(edge.angle) * out);
+  const auto error = [&](const Vec3& direction, double step) { return out.dot(direction) * step / (1.0 + std::abs(run.dot(direction)) / step); };
+  return std::hypot(error(away, row), error(beside, column)) / (std::sqrt(6.0) * length);
 }
 
 /// By how much (tangent) the largest upright face across `out` leans toward it.
@@ -103,7 +115,9 @@ Vec2 turn_of_outline(const Observation& seen, const DepthView& view, std::span<c
     if (face->plane.normal.z() < kLevelFace) continue;
     for (const auto& [along, out] : {std::pair{x, y}, std::pair{y, Vec3(-x)}, std::pair{Vec3(-x), Vec3(-y)}, std::pair{Vec3(-y), x}}) {
       const auto slope = slope_of(free_ends(seen, view, *face, along, out));
-      if (slope && std::abs(slope->angle) < kMostTurn) sum += quarter_turn(yaw + slope->angle, 1.0 / (slope->error * slope->error));
+      if (!slope || std::abs(slope->angle) > kMostTurn) continue;
+      const double error = std::hypot(slope->error, step_error(view, *face, *slope, along, out));
+      sum += quarter_turn(yaw + slope->angle, 1.0 / (error * error));
     }
   }
   return sum;
