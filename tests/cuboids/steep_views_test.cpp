@@ -42,6 +42,22 @@ TEST(SteepViews, UpIsAwayFromAStripOfFloorBeforeAWall) {
     }
 }
 
+/// The wall at the picture's lower border is as a strip of floor; but things stand on what fills the picture.
+TEST(SteepViews, UpIsThatOfTheFloorBesideAWallThatIsSeenFromAbove) {
+  for (const double height : {2.5, 3.0})
+    for (const double pitch : {85.0, 90.0}) {
+      Scene scene;
+      scene.height = height;
+      scene.pitch = radians(pitch);
+      const double border = height / std::tan(radians(pitch + 24.0));
+      scene.boxes = {upright(0, border, 0, {8.0, 0.1, 0.9 * height}, 0), upright(-0.3, 0.1, 0, {0.3, 0.2, 0.2}, 20), upright(0.35, 0.3, 0, {0.25, 0.25, 0.3}, -15),
+                     upright(0.1, -0.15, 0, {0.2, 0.3, 0.15}, 40)};
+      Context context;
+      const Vec3 up = observe(render(scene), {}, context).T_world_camera.rotation.row(2).transpose(), truth = camera_of(scene).rotation.row(2).transpose();
+      EXPECT_GT(up.dot(truth), 0.99) << height << " m, " << pitch;
+    }
+}
+
 /// Straight down into a bin, or level into a shelf: nothing in the picture tells.
 TEST(SteepViews, UpIsDoubtedWhereTheCameraLooksStraightIntoABin) {
   for (const double pitch : {35.0, 88.0}) {
