@@ -16,12 +16,14 @@ constexpr double kSliver = 0.7;       // spacings: the standard deviation of two
 constexpr double kOffPlane = 0.003;   // m: how far the middle of a face may be off a plane that it lies on, or one deviation of a measurement …
 const double kAlike = std::cos(radians(20.0));  // … and how far its own direction, of which noise leaves little
 
+/// Whether a face is no more than two rows of pixels wide.
 bool is_sliver(const Observation& seen, const Face& face) {
   std::vector<float> spacings;
-  for (const int i : face.points) spacings.push_back(static_cast<float>(seen.graph.spacing[i]));
+  for (const int i : face.points) spacings.push_back(seen.graph.spacing[i]);
   return face.width < kSliver * median(std::move(spacings));
 }
 
+/// Whether a face lies on a side's plane, as far as noise tells.
 bool lies_on(const Observation& seen, const Face& side, const Face& face) {
   const double tolerance = std::max<double>(seen.graph.sigma[face.points[face.points.size() / 2]], kOffPlane);
   return side.plane.normal.dot(face.plane.normal) > kAlike && std::abs(side.plane.signed_distance(face.center)) < tolerance;

@@ -176,11 +176,11 @@ bool looks_into_bin(const Scan& scan, const std::vector<Level>& planes, const Ve
 /// Whether what faces `up` is a floor, of which a level camera may see but a strip: nearly nothing lies below it, nor above it a lid or another side of a
 /// bin that is seen from above.
 bool is_below_all(const Scan& scan, const std::vector<Level>& planes, const Vec3& up) {
-  const Level* lowest = nullptr;
+  const Level* floor = nullptr;
   for (const Level& level : planes)
-    if (level.plane.normal.dot(up) > kHorizontal && (!lowest || points_on(scan, level) > points_on(scan, *lowest))) lowest = &level;
-  if (!lowest || points_facing(scan, planes, -up) > kOpposite * points_on(scan, *lowest)) return false;
-  const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) { return lowest->plane.signed_distance(p) < -kUnder; });
+    if (level.plane.normal.dot(up) > kHorizontal && (!floor || points_on(scan, level) > points_on(scan, *floor))) floor = &level;
+  if (!floor || points_facing(scan, planes, -up) > kOpposite * points_on(scan, *floor)) return false;
+  const auto below = std::count_if(scan.points.begin(), scan.points.end(), [&](const Vec3& p) { return floor->plane.signed_distance(p) < -kUnder; });
   return static_cast<double>(below) < kHardlyAnyUnder * static_cast<double>(scan.points.size());
 }
 
