@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 
 #include "cuboids/objects/tints.h"
 #include "painted_scenes.h"
@@ -156,6 +157,21 @@ TEST(Tints, AreThoseOfAnyLight) {
   }
   frame.color.clear();
   EXPECT_TRUE(tints_of(frame).empty());
+}
+
+TEST(Tints, AreThoseOfCielab) {
+  struct Known {
+    std::array<std::uint8_t, 3> color;
+    double l, a, b;  // of sRGB, D65
+  };
+  const std::array<Known, 5> known = {{{{255, 0, 0}, 53.24, 80.09, 67.20}, {{0, 255, 0}, 87.74, -86.18, 83.18}, {{0, 0, 255}, 32.30, 79.19, -107.86}, {{128, 128, 128}, 53.59, 0.0, 0.0},
+                                       {{255, 255, 255}, 100.0, 0.0, 0.0}}};
+  RgbdFrame frame;
+  frame.camera.width = frame.camera.height = 3;
+  for (const Known& one : known) {
+    frame.color.assign(9, one.color);
+    EXPECT_LT((tints_of(frame)[4] - 66.0 / (one.l + 16.0) * Tint(one.a, one.b)).norm(), 0.05) << one.l;
+  }
 }
 
 TEST(Tints, OfPlainThingsAreKnown) {
