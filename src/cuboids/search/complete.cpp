@@ -142,7 +142,7 @@ void complete_boxes(const RgbdFrame& frame, const Options& options, Context& con
   if (std::optional<std::vector<char>> falls = trim_overlaps(view, ending.problem, ending.held, ending.arrangement, context)) ending.falls = std::move(*falls);
   describe(ending.problem, ending.held, ending.arrangement, result);
   warn_of_falls(ending.falls, problem.push, result, context);
-  warn_of_free_space(view, ending.problem.tolerance, result.cuboids, context);
+  warn_of_no_boxes(view, ending.problem.tolerance, result.cuboids, context);
   warn_of_unmeasured(view, result.cuboids, context);
   summary.counts.emplace_back("cuboids", result.cuboids.size());
   summary.counts.emplace_back("contacts", result.contacts.size());

@@ -14,6 +14,7 @@ namespace unseen::cuboids {
 namespace {
 
 constexpr double kMuchFree = 0.25;     // of a box; in that around a standing cylinder 21 % are free
+constexpr double kMuchWithin = 0.05, kWithinSigmas = 4.0;  // of what was measured in a box or on it, that lies so deep in it
 constexpr std::size_t kNamed = 6;
 constexpr double kGrownDown = 0.03, kGrownDownShare = 0.15;  // m, and of what was seen of a box
 constexpr double kUnmeasured = 0.6, kBelowEdge = 4.0;        // of what is below a box; spacings below its lower edge
@@ -46,17 +47,35 @@ double unmeasured_below(const DepthView& view, const OrientedBox& box) {
   return count == 0 ? 0.0 : static_cast<double>(missing) / count;
 }
 
+/// How much of what was measured in a box or on it lies deep in it, where a box shows nothing.
+double share_within(const DepthView& view, const OrientedBox& box, double tolerance) {
+  const std::vector<Vec3> points = view.measured_in(box, tolerance);
+  const auto is_within = [&](const Vec3& p) {
+    const double inside = (box.half_size - (box.axes.transpose() * (p - box.center)).cwiseAbs()).minCoeff();
+    return inside > std::max(tolerance, kWithinSigmas * view.sigma(p));
+  };
+  return points.empty() ? 0.0 : static_cast<double>(std::count_if(points.begin(), points.end(), is_within)) / static_cast<double>(points.size());
+}
+
+/// "5 (31 %), 2 (8 %)", the largest shares first.
+std::string with_shares(std::vector<std::pair<double, int>> boxes) {
+  std::stable_sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> named;
+  for (const auto& [share, id] : boxes) named.push_back(fmt::format("{} ({:.0f} %)", id, 100.0 * share));
+  return first_of(named);
+}
+
 }  // namespace
 
-void warn_of_free_space(const DepthView& view, const std::vector<double>& tolerance, const std::vector<Cuboid>& cuboids, Context& context) {
-  std::vector<std::pair<double, int>> free;
-  for (std::size_t i = 0; i < cuboids.size(); ++i)
-    if (const double share = 1.0 - filled_share(view, cuboids[i].box, tolerance[i]); share > kMuchFree) free.emplace_back(-share, cuboids[i].id);
-  if (free.empty()) return;
-  std::sort(free.begin(), free.end());
-  std::vector<std::string> named;
-  for (const auto& [share, id] : free) named.push_back(fmt::format("{} ({:.0f} %)", id, -100.0 * share));
-  context.warn("what was seen is no box, and its box holds space that was seen free: box " + first_of(named));
+void warn_of_no_boxes(const DepthView& view, const std::vector<double>& tolerance, const std::vector<Cuboid>& cuboids, Context& context) {
+  std::vector<std::pair<double, int>> free, within;
+  for (std::size_t i = 0; i < cuboids.size(); ++i) {
+    const OrientedBox& box = cuboids[i].box;
+    if (const double share = 1.0 - filled_share(view, box, tolerance[i]); share > kMuchFree) free.emplace_back(share, cuboids[i].id);
+    else if (const double deep = share_within(view, box, tolerance[i]); deep > kMuchWithin) within.emplace_back(deep, cuboids[i].id);
+  }
+  if (!free.empty()) context.warn("what was seen is no box, and its box holds space that was seen free: box " + with_shares(std::move(free)));
+  if (!within.empty()) context.warn("may be several things, or no box, as surface was seen within it: box " + with_shares(std::move(within)));
 }
 
 void warn_of_falls(const std::vector<char>& falls, double push, Completion& result, Context& context) {

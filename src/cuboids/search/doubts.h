@@ -10,8 +10,8 @@
 
 namespace unseen::cuboids {
 
-/// Boxes around what is no box hold space that the camera saw free. `tolerance`: m, a cuboid.
-void warn_of_free_space(const DepthView& view, const std::vector<double>& tolerance, const std::vector<Cuboid>& cuboids, Context& context);
+/// Boxes around what is no box, or around several things, hold space that the camera saw free, or show surface within. `tolerance`: m, a cuboid.
+void warn_of_no_boxes(const DepthView& view, const std::vector<double>& tolerance, const std::vector<Cuboid>& cuboids, Context& context);
 
 /// Contacts count within tolerance, but an engine that is given the boxes moves some until they touch. `falls`: a mark a support and a cuboid.
 void warn_of_falls(const std::vector<char>& falls, double push, Completion& result, Context& context);
