@@ -229,6 +229,21 @@ TEST(Grooves, AreWhereTheyWereSeen) {
   EXPECT_TRUE(grooves(view, scene.boxes[0], 0).empty());
 }
 
+TEST(Grooves, BelowAThirdBoxAreAsDeepAsTheyAreWide) {
+  for (const bool is_door : {false, true}) {  // of a cupboard: the gap ends 3 cm behind the front
+    Scene scene;
+    for (const double x : {-0.12, 0.12}) scene.boxes.push_back(upright(x, 1.1, 0, {0.2, 0.25, 0.2}, 0));
+    scene.boxes.push_back(upright(0, 1.1, 0.2, {0.44, 0.25, 0.1}, 0));
+    if (is_door) scene.boxes.push_back(upright(0, 1.115, 0, {0.1, 0.22, 0.2}, 0));
+    scene.height = 0.8;
+    const RgbdFrame frame = render(scene);
+    Context context;
+    const Observation seen = observe(frame, {}, context);
+    const DepthView view(frame, seen.T_world_camera, depth_noise(frame, {}));
+    EXPECT_EQ(grooves(view, upright(0, 1.1, 0, {0.44, 0.25, 0.2}, 0), 0).size(), is_door ? 0u : 1u) << is_door;
+  }
+}
+
 TEST(Cuts, APlankThatLeansOnACrateIsOneBox) {
   Scene scene;
   const OrientedBox crate = upright(0, 1.1, 0, {0.3, 0.26, 0.26}, -30);

@@ -16,6 +16,7 @@ constexpr double kMostPlaces = 400;
 constexpr double kLeastSide = 0.1;            // of the length: what is beside a groove
 constexpr double kWidest = 0.2;               // of the length: more is no groove
 constexpr int kNarrowest = 2;                 // places
+constexpr double kAsDeep = 1.5;               // widths of a groove of which one side alone tells, that it must be deep: gaps of doors are not
 
 }  // namespace
 
@@ -30,7 +31,7 @@ std::vector<double> seen_through(const DepthView& view, const OrientedBox& box, 
     for (int i = 0; i < kSamples; ++i) {
       const double t = 0.9 * (2.0 * i / (kSamples - 1) - 1.0) * box.half_size[along];
       const DepthView::Space space = view.at(middle + t * box.axes.col(along));
-      known += space != DepthView::Space::missing && space != DepthView::Space::outside;
+      known += space == DepthView::Space::free || space == DepthView::Space::surface;  // what something else hides tells nothing
       free += space == DepthView::Space::free;
     }
     if (known >= kFewestKnown) shares.push_back(static_cast<double>(free) / known);
@@ -38,28 +39,43 @@ std::vector<double> seen_through(const DepthView& view, const OrientedBox& box, 
   return shares;
 }
 
+namespace {
+
+/// Whether a groove is open, as far as is known, so deep in the sides as well.
+bool is_open_within(const DepthView& view, OrientedBox box, int axis, double place, double depth) {
+  for (const int k : {(axis + 1) % 3, (axis + 2) % 3}) box.half_size[k] -= depth;
+  if (box.half_size.minCoeff() <= 0.0) return false;
+  const std::vector<double> shares = seen_through(view, box, axis, place);
+  return !shares.empty() && std::all_of(shares.begin(), shares.end(), [](double share) { return share > kOpen; });
+}
+
+}  // namespace
+
 std::vector<double> grooves(const DepthView& view, const OrientedBox& box, int axis) {
   const double half = box.half_size[axis];
   const int count = static_cast<int>(std::clamp(2.0 * half / view.spacing(box.center), 1.0, kMostPlaces));
   const auto place = [&](int i) { return half * ((2.0 * i + 1.0) / count - 1.0); };
-  enum class Place { unknown, open, closed, mixed };
+  enum class Place { unknown, open, half_open, closed, mixed };  // half open: as far as one side tells
   std::vector<Place> places;
   for (int i = 0; i < count; ++i) {
     const std::vector<double> shares = seen_through(view, box, axis, place(i));
     const auto all = [&](auto test) { return std::all_of(shares.begin(), shares.end(), test); };
     if (shares.empty()) places.push_back(Place::unknown);
     else if (all([](double share) { return share < kClosed; })) places.push_back(Place::closed);
-    else if (shares.size() > 1 && all([](double share) { return share > kOpen; })) places.push_back(Place::open);
+    else if (all([](double share) { return share > kOpen; })) places.push_back(shares.size() > 1 ? Place::open : Place::half_open);
     else places.push_back(Place::mixed);
   }
   const auto begin = places.begin();
   const auto is_closed = [&](int from, int to) { return static_cast<double>(std::count(begin + from, begin + to, Place::closed)) >= kLeastSide * count; };
+  const auto is_open = [&](int i) { return i < count && (places[i] == Place::open || places[i] == Place::half_open); };
   std::vector<double> found;
   for (int i = 0; i < count; ++i) {
-    if (places[i] != Place::open) continue;
+    if (!is_open(i)) continue;
     const int first = i;
-    while (i < count && places[i] == Place::open) ++i;
-    if (i - first >= kNarrowest && i - first <= kWidest * count && is_closed(0, first) && is_closed(i, count)) found.push_back(0.5 * (place(first) + place(i - 1)));
+    while (is_open(i)) ++i;
+    if (i - first < kNarrowest || i - first > kWidest * count || !is_closed(0, first) || !is_closed(i, count)) continue;
+    const double middle = 0.5 * (place(first) + place(i - 1));
+    if (std::count(begin + first, begin + i, Place::open) >= kNarrowest || is_open_within(view, box, axis, middle, kAsDeep * 2.0 * half * (i - first) / count)) found.push_back(middle);
   }
   return found;
 }
