@@ -12,6 +12,7 @@
 #include "collision/describe.h"
 #include "collision/doubts/common_error.h"
 #include "collision/doubts/focal_doubt.h"
+#include "collision/doubts/held.h"
 #include "collision/remarks.h"
 #include "collision/shot_problem.h"
 #include "collision/sighted.h"
@@ -179,6 +180,21 @@ void exchange_by_size(const Shot& shot, const Options& options, const std::array
   impacts = std::move(exchanged);
 }
 
+/// A body that was held between its flights did not collide.
+void doubt_held(const Shot& shot, const Evidence& evidence, SolvedImpact& impact, Context& context) {
+  for (int body = 0; body < 2; ++body) {
+    const std::optional<Held> held = held_between_flights(evidence.footage, evidence.camera, evidence.tracks, impact.solution, body);
+    if (!held) continue;
+    const std::string what = fmt::format("{} was seen as one with something else that moves for {:.2g} s about the impact", shot.bodies[body].name, held->seconds);
+    if (held->off == 0.0) {
+      context.warn(what + ": if that held it, as a hand does, this is no bounce");
+      continue;
+    }
+    impact.check.reasons.push_back(fmt::format("{}, and not where its flights lead ({:.0f} px off): it was held, as by a hand", what, held->off));
+    impact.check.fits = false;
+  }
+}
+
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
   Summary& summary = result.summary;
   if (shot.bodies.size() != 2) throw InputError(shot.name, "bodies", std::to_string(shot.bodies.size()), "two");
@@ -218,6 +234,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
       impact.uncertain = uncertainty(impact.solution, options.resamples, options.seed, context);
       weigh_common_error(impact.solution, impact.uncertain, options.resamples, options.seed, context);
       impact.check = check_model(impact.solution, options.held_out, tracks.noise, {shot.bodies[0].name, shot.bodies[1].name});
+      doubt_held(shot, evidence, impact, context);
     }
   }
   if (impacts.empty()) {

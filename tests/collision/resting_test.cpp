@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/tracks/candidates.h"
+#include "collision/video/background.h"
 #include "collision/video/regions.h"
 #include "little_videos.h"
 
@@ -46,6 +47,32 @@ TEST(Resting, ABallOnAPostIsSeenWholeUntilItIsHit) {
     whole += ball->whole;
   }
   EXPECT_GE(whole, 18);  // of 20
+}
+
+// A puck waits on marbled ice until another hits it, that then creeps over the place: no colour lasts there, and what is around it does not tell what is behind.
+TEST(Resting, APuckOnIceLeavesTheIce) {
+  cv::Mat coarse(kHeight / 6, kWidth / 6, CV_8UC3), ice;
+  cv::setRNGSeed(3);
+  cv::randn(coarse, cv::Scalar(200, 190, 180), cv::Scalar::all(22));
+  cv::resize(coarse, ice, {kWidth, kHeight}, 0, 0, cv::INTER_CUBIC);
+  constexpr int kFrames = 48;
+  const Vec2 waiting(180, 110);
+  Random random(4);
+  std::vector<cv::Mat> frames;
+  for (int k = 0; k < kFrames; ++k) {
+    const int t = k - kHit;
+    frames.push_back(ice.clone());
+    draw_disc(frames.back(), t < 0 ? waiting : Vec2(waiting.x() + 5.0 * t, waiting.y() - 3.0 * t), kRadius, cv::Scalar(40, 190, 215));
+    draw_disc(frames.back(), t < 0 ? Vec2(146.0 + 6.0 * t, 126) : Vec2(146.0 + 1.4 * t, 126.0 + 1.1 * t), kRadius, cv::Scalar(45, 40, 200));
+    add_noise(frames.back(), 1.5, random);
+  }
+  Context context;
+  const Background background = find_background(frames, context);
+  cv::Mat off, place = cv::Mat::zeros(ice.size(), CV_8U);
+  cv::absdiff(background.picture, ice, off);
+  cv::circle(place, cv::Point(180, 110), static_cast<int>(kRadius) - 1, cv::Scalar(255), cv::FILLED);
+  const cv::Scalar mean = cv::mean(off, place);
+  EXPECT_LT(mean[0] + mean[1] + mean[2], 3 * 4.0);
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ cv::Mat with_shadow(const cv::Mat& picture, const cv::Mat& part, const OtherColo
   return whole;
 }
 
-/// What lies behind a part: the other colour that is most like what is around it, if it may be that or is of a texture there; or else what is around it.
+/// What lies behind a part: the other colour that is most like what is around it, if it may be that or is of a texture there; or else what is there, if that may be; or else what is around it.
 /// `seen` is 255 where it is such a colour.
 cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& others, const cv::Point& corner, cv::Mat& seen) {
   const cv::Mat fill = surroundings(picture, part);
@@ -127,10 +127,12 @@ cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& o
       if (!part.at<unsigned char>(y, x)) continue;
       const cv::Vec3f& expected = fill.at<cv::Vec3f>(y, x);
       std::vector<cv::Vec3b> colors = others.at(corner + cv::Point(x, y));
-      std::erase_if(colors, [&](const cv::Vec3b& c) { return !is_like(c, expected) && !is_among(texture, c); });
+      const auto may_be_behind = [&](const cv::Vec3b& c) { return is_like(c, expected) || is_among(texture, c); };
+      std::erase_if(colors, [&](const cv::Vec3b& c) { return !may_be_behind(c); });
       const auto nearest = std::min_element(colors.begin(), colors.end(), [&](const cv::Vec3b& a, const cv::Vec3b& b) { return farthest(a, expected) < farthest(b, expected); });
-      second.at<cv::Vec3b>(y, x) = nearest == colors.end() ? cv::Vec3b(expected) : *nearest;
-      if (nearest != colors.end()) seen.at<unsigned char>(y, x) = 255;
+      cv::Vec3b& color = second.at<cv::Vec3b>(y, x);
+      if (nearest != colors.end()) color = *nearest, seen.at<unsigned char>(y, x) = 255;
+      else if (!may_be_behind(color)) color = expected;
     }
   return second;
 }
