@@ -55,6 +55,7 @@ TEST(Resting, APuckOnIceLeavesTheIce) {
   cv::setRNGSeed(3);
   cv::randn(coarse, cv::Scalar(200, 190, 180), cv::Scalar::all(22));
   cv::resize(coarse, ice, {kWidth, kHeight}, 0, 0, cv::INTER_CUBIC);
+  cv::line(ice, {0, 118}, {kWidth, 118}, cv::Scalar(160, 95, 70), 6);
   constexpr int kFrames = 48;
   const Vec2 waiting(180, 110);
   Random random(4);
@@ -63,7 +64,7 @@ TEST(Resting, APuckOnIceLeavesTheIce) {
     const int t = k - kHit;
     frames.push_back(ice.clone());
     draw_disc(frames.back(), t < 0 ? waiting : Vec2(waiting.x() + 5.0 * t, waiting.y() - 3.0 * t), kRadius, cv::Scalar(40, 190, 215));
-    draw_disc(frames.back(), t < 0 ? Vec2(146.0 + 6.0 * t, 126) : Vec2(146.0 + 1.4 * t, 126.0 + 1.1 * t), kRadius, cv::Scalar(45, 40, 200));
+    draw_disc(frames.back(), t < 0 ? Vec2(143.0 + 7.0 * t, 128) : Vec2(143.0 + 1.7 * t, 128.0 + 2.0 * t), kRadius, cv::Scalar(45, 40, 200));
     add_noise(frames.back(), 1.5, random);
   }
   Context context;
