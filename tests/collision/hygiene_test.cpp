@@ -222,5 +222,19 @@ TEST(Hygiene, UnevenStampsAreUsedAndSaid) {
   EXPECT_NEAR(frame_times(holed, 25.0, {}, "v", context)[4], 0.16, 1e-9);
 }
 
+// A phone that takes fewer pictures a second once it is darker: no step is far from the typical one, and yet the frames drift.
+TEST(Hygiene, AChangedRateIsSeenByItsStamps) {
+  std::vector<double> stamps{0.0}, shaken;
+  for (int k = 1; k < 60; ++k) stamps.push_back(stamps.back() + (k < 25 ? 1.0 / 30.0 : 1.0 / 24.0));
+  Context context;
+  const std::vector<double> times = frame_times(stamps, 59.0 / stamps.back(), {}, "v", context);
+  for (std::size_t k = 0; k < stamps.size(); ++k) EXPECT_NEAR(times[k], stamps[k], 1e-9) << k;
+  EXPECT_TRUE(warned(context, "they drift by 2.8"));
+  for (int k = 0; k < 60; ++k) shaken.push_back((k + 0.1 * (k % 2)) / 30.0);  // stamps of an even rate, told a little early and late
+  Context even;
+  EXPECT_NEAR(frame_times(shaken, 30.0, {}, "v", even)[41], 41.0 / 30.0, 1e-9);
+  EXPECT_FALSE(warned(even, "uneven"));
+}
+
 }  // namespace
 }  // namespace unseen::collision::test

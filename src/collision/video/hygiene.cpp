@@ -17,6 +17,7 @@ constexpr int kNeighbours = 4;        // frames on either side that a frame's ch
 constexpr double kRepeats = 0.08;     // share of the neighbours' change that a repeated frame may show
 constexpr int kLongestHold = 8;       // frames that repeat one
 constexpr double kUneven = 0.25;      // of a frame time
+constexpr double kDrift = 0.5;        // frame times off an even rate, by steps that each are less uneven
 constexpr double kTick = 1e-3;        // s: Matroska rounds stamps to it
 constexpr int kLongestPeriod = 12;    // frames
 constexpr int kFewestRepeats = 5;     // that make a period
@@ -160,6 +161,15 @@ std::vector<double> steps_of(const std::vector<double>& stamps, double typical) 
   return steps;
 }
 
+/// Frame times that the frames are off an even rate at most, as those of a phone that takes fewer where it gets darker.
+double drift_of(const std::vector<double>& steps) {
+  double sum = 0.0, at = 0.0, drift = 0.0;
+  for (const double step : steps) sum += step;
+  const double mean = sum / static_cast<double>(steps.size());
+  for (const double step : steps) drift = std::max(drift, std::abs(at += step - mean));
+  return drift;
+}
+
 }  // namespace
 
 bool lasts_as_announced(const std::vector<double>& stamps, int announced, double fps) {
@@ -201,10 +211,11 @@ std::vector<double> frame_times(const std::vector<double>& stamps, double file_f
   if (typical == 0.0 || are_even_but_rounded(stamps, file_fps) || are_even_but_rounded(stamps, rate)) return times;
   const std::vector<double> steps = steps_of(stamps, typical);
   const auto uneven = std::count_if(steps.begin(), steps.end(), [](double s) { return std::abs(s - 1.0) > kUneven; });
-  if (uneven == 0) return times;
-  const double longest = *std::max_element(steps.begin(), steps.end());
-  context.warn(fmt::format("{}: the time stamps are uneven ({} of {} steps, the longest {:.1f} frame times); they are used instead of "
-                           "an even frame rate", name, uneven, steps.size(), longest));
+  const double longest = *std::max_element(steps.begin(), steps.end()), drift = drift_of(steps);
+  if (uneven == 0 && drift < kDrift) return times;
+  const std::string how = uneven > 0 ? fmt::format("{} of {} steps, the longest {:.1f} frame times", uneven, steps.size(), longest)
+                                     : fmt::format("they drift by {:.1f} frame times", drift);
+  context.warn(fmt::format("{}: the time stamps are uneven ({}); they are used instead of an even frame rate", name, how));
   const double step = fps ? 1.0 / *fps : typical;  // the file's own rate counts the missing frames too
   for (std::size_t k = 1; k < times.size(); ++k) times[k] = times[k - 1] + steps[k - 1] * step;
   return times;
