@@ -117,6 +117,23 @@ TEST(Drag, ThatTheMassGivesAndTheFlightsCannotTellIsInTheInterval) {
   EXPECT_FALSE(warned(r, "no mass"));
 }
 
+// Balls as large are hollow: a basketball of which nobody gave the mass.
+TEST(Drag, OfALargeBallIsInTheInterval) {
+  constexpr double kLarge = 0.12, kBasketball = 0.62;  // m, kg
+  const auto thrown = [](double drag) {
+    Shot shot = bouncing(drag);
+    shot.bodies[0].radius = kLarge;
+    for (Sighting& s : shot.observations) s.radius = 0.0;
+    return shot;
+  };
+  Context context;
+  const Reconstruction r = reconstruct(thrown(0.5 * 1.2 * 0.47 * kPi * kLarge * kLarge / kBasketball), {}, context);
+  ASSERT_TRUE(r.restitution);
+  EXPECT_TRUE(holds(r));
+  EXPECT_TRUE(warned(r, "as a large ball's"));
+  EXPECT_LT(2.0 * r.restitution->value - r.restitution->low, kBack);  // by the flights alone it would not be
+}
+
 TEST(Drag, ThatIsEstimatedLeavesItsDoubtInTheInterval) {
   Shot shot = bouncing(kDrag);
   shot.bodies[0].mass = kMass;

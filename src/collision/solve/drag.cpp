@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "collision/doubts/alternative.h"
 #include "collision/doubts/restitution.h"
@@ -52,12 +53,29 @@ std::optional<Drag> likely_drag(const std::vector<SolvedImpact>& impacts, double
   return shared_out(impacts.front(), best);
 }
 
-/// What the air may do to the restitution of bodies whose masses nobody gave, if they may be light and it is more than the interval tells: a little is in the interval, more is said.
+/// Densities that a body may have, kg/m³, the densest first, and what has them.
+struct Likely {
+  std::vector<double> densities;
+  std::string who;
+  bool surely = false;  ///< it has one of them
+};
+
+/// Large balls are hollow: of a basketball 83, a football 77, a volleyball 56. Others may be denser than a tennis ball.
+Likely likely_densities(const Body& body, const Solid& solid) {
+  constexpr double kLarge = 0.16;  // m
+  if (body.shape == Shape::sphere && solid.mass.extent > kLarge) return {{85.0, 65.0}, ", as a large ball's", true};
+  return {{320.0, 160.0, 80.0}, body.shape == Shape::sphere ? ", as a light ball's" : "", false};
+}
+
+/// What the air may do to the restitution of bodies whose masses nobody gave, if they may be light and it is more than the interval tells: a little is in the interval, as is
+/// all of it for a large ball, and more is said.
 void doubt_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impacts, double none, Reconstruction& result, Context& context) {
   constexpr double kLittle = 0.01;
   std::vector<SolvedImpact> lightest;
   if (!result.restitution || std::any_of(shot.bodies.begin(), shot.bodies.end(), [](const Body& body) { return body.mass.has_value(); })) return;
-  for (const double density : {320.0, 160.0, 80.0}) {  // kg/m³: of a tennis ball, and down to a basketball's or a table-tennis ball's
+  const Likely likely = likely_densities(shot.bodies[0], impacts.front().solution.problem.solids[0]);
+  bool said = false;
+  for (const double density : likely.densities) {
     Shot light = shot;
     for (std::size_t o = 0; o < light.bodies.size(); ++o) light.bodies[o].mass = density * impacts.front().solution.problem.solids[o].mass.volume;
     const std::optional<Drag> drag = known_drag(light, impacts.front());
@@ -66,12 +84,12 @@ void doubt_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impac
     if (!(2.0 * (none - cost_of(solved)) > -kSaved)) break;  // not so light
     const double c = pooled(restitutions_of(solved)).value;
     if (c >= result.restitution->low && c <= result.restitution->high) continue;
-    if (std::abs(c - result.restitution->value) < kLittle) {
-      lightest = solved;
-      continue;
-    }
-    context.warn(fmt::format("no mass is given, so that drag of the air is left out: c would be {:.3f} if the density were {:.0f} kg/m³, as a {}ball's; give \"mass\" in kg", c, density, density > 200.0 ? "tennis " : density > 100.0 ? "foot" : "basket"));
-    return;
+    const bool little = std::abs(c - result.restitution->value) < kLittle;
+    if (little || likely.surely) lightest = solved;
+    if (little || said) continue;
+    context.warn(fmt::format("no mass is given, so that drag of the air is left out: c would be {:.3f} if the density were {:.0f} kg/m³{}; give \"mass\" in kg", c, density, likely.who));
+    if (!likely.surely) return;
+    said = true;
   }
   if (!lightest.empty()) widen_to_hold(lightest, result);
 }
