@@ -10,6 +10,7 @@
 #include <set>
 
 #include "collision/describe.h"
+#include "collision/doubts/common_bend.h"
 #include "collision/doubts/common_error.h"
 #include "collision/doubts/focal_doubt.h"
 #include "collision/doubts/held.h"
@@ -195,6 +196,22 @@ void doubt_held(const Shot& shot, const Evidence& evidence, SolvedImpact& impact
   }
 }
 
+/// What is said to be without gravity, and falls.
+void doubt_weightlessness(const Shot& shot, const Tracks& tracks, std::vector<SolvedImpact>& impacts, Context& context) {
+  constexpr double kFalls = 1.0;  // m/s²
+  const std::optional<double> bend = common_bend(tracks, impacts);
+  if (!bend) return;
+  const std::string what = fmt::format("all flights bend alike, by {:.2g} m/s², though \"gravity\" is 0", *bend);
+  if (*bend < kFalls) {
+    context.warn(fmt::format("{}: {}: what they slide on is not level", shot.name, what));
+    return;
+  }
+  for (SolvedImpact& impact : impacts) {
+    impact.check.reasons.push_back(what + ": something falls");
+    impact.check.fits = false;
+  }
+}
+
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
   Summary& summary = result.summary;
   if (shot.bodies.size() != 2) throw InputError(shot.name, "bodies", std::to_string(shot.bodies.size()), "two");
@@ -236,6 +253,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
       impact.check = check_model(impact.solution, options.held_out, tracks.noise, {shot.bodies[0].name, shot.bodies[1].name});
       doubt_held(shot, evidence, impact, context);
     }
+    doubt_weightlessness(shot, tracks, impacts, context);
   }
   if (impacts.empty()) {
     summary.status = Status::infeasible;

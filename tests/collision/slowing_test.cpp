@@ -124,5 +124,39 @@ TEST(Slowing, ByATableIsEstimated) {
   }
 }
 
+/// A ball that comes back from a rail, or a floor, at y = 0.3 m, and is drawn there by this acceleration (m/s²), which the shot does not know of.
+Shot drawn(double acceleration) {
+  Shot shot = table();
+  shot.bodies[0].name = "ball", shot.bodies[1].name = "rail";
+  shot.bodies[0].radius = kPuckRadius;
+  shot.bodies[1].shape = Shape::fixed;
+  Random random(4);
+  Vec2 p(-0.4, -0.2), v(0.5, 0.9);
+  for (int f = 0; f < 60; ++f) {
+    shot.observations.push_back({f, Vec2(640, 360) + 800.0 * p + 0.2 * Vec2(random.normal(), random.normal()), 800 * kPuckRadius, 0});
+    constexpr int kSteps = 200;
+    for (int i = 0; i < kSteps; ++i) {
+      v.y() += acceleration / (60.0 * kSteps);
+      p += v / (60.0 * kSteps);
+      if (p.y() > 0.3 && v.y() > 0.0) v.y() *= -kBack;
+    }
+  }
+  return shot;
+}
+
+TEST(Slowing, IsNoFallAndNoSlope) {
+  const auto warnings = [](double acceleration) {
+    Context context;
+    const Reconstruction r = reconstruct(drawn(acceleration), {}, context);
+    EXPECT_EQ(r.restitution.has_value(), acceleration < 0.3) << acceleration;
+    std::string all;
+    for (const std::string& warning : r.summary.warnings) all += warning + "\n";
+    return all;
+  };
+  EXPECT_EQ(warnings(0.0).find("bend alike"), std::string::npos);
+  EXPECT_NE(warnings(0.15).find("though \"gravity\" is 0: what they slide on is not level"), std::string::npos);
+  EXPECT_NE(warnings(1.2).find("though \"gravity\" is 0: something falls"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace unseen::collision

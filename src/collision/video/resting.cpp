@@ -115,8 +115,8 @@ cv::Mat with_shadow(const cv::Mat& picture, const cv::Mat& part, const OtherColo
   return whole;
 }
 
-/// What lies behind a part: the other colour that is most like what is around it, if it may be that or is of a texture there; or else what is there, if that may be; or else what is around it.
-/// `seen` is 255 where it is such a colour.
+/// What lies behind a part: of its own and the other colours the one that is most like what is around it, if it may be that or is of a texture there; or else what is around it.
+/// `seen` is 255 where it is another colour.
 cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& others, const cv::Point& corner, cv::Mat& seen) {
   const cv::Mat fill = surroundings(picture, part);
   const std::vector<cv::Vec3b> texture = texture_around(picture, part);
@@ -131,8 +131,9 @@ cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& o
       std::erase_if(colors, [&](const cv::Vec3b& c) { return !may_be_behind(c); });
       const auto nearest = std::min_element(colors.begin(), colors.end(), [&](const cv::Vec3b& a, const cv::Vec3b& b) { return farthest(a, expected) < farthest(b, expected); });
       cv::Vec3b& color = second.at<cv::Vec3b>(y, x);
-      if (nearest != colors.end()) color = *nearest, seen.at<unsigned char>(y, x) = 255;
-      else if (!may_be_behind(color)) color = expected;
+      if (may_be_behind(color) && (nearest == colors.end() || farthest(color, expected) <= farthest(*nearest, expected))) continue;
+      color = nearest == colors.end() ? cv::Vec3b(expected) : *nearest;
+      if (nearest != colors.end()) seen.at<unsigned char>(y, x) = 255;
     }
   return second;
 }
