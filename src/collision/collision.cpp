@@ -182,34 +182,17 @@ void exchange_by_size(const Shot& shot, const Options& options, const std::array
 }
 
 /// A body that was held between its flights did not collide.
-void doubt_held(const Shot& shot, const Evidence& evidence, SolvedImpact& impact, Context& context) {
-  for (int body = 0; body < 2; ++body) {
-    const std::optional<Held> held = held_between_flights(evidence.footage, evidence.camera, evidence.tracks, impact.solution, body);
-    if (!held) continue;
-    const std::string what = fmt::format("{} was seen as one with something else that moves for {:.2g} s about the impact", shot.bodies[body].name, held->seconds);
-    if (held->off == 0.0) {
-      context.warn(what + ": if that held it, as a hand does, this is no bounce");
-      continue;
-    }
-    impact.check.reasons.push_back(fmt::format("{}, and not where its flights lead ({:.0f} px off): it was held, as by a hand", what, held->off));
-    impact.check.fits = false;
-  }
+void doubt_held(const Shot& shot, const Evidence& evidence, const Problem& problem, Context& context) {
+  for (int body = 0; body < 2; ++body)
+    if (const auto seconds = seconds_held(evidence.footage, evidence.tracks, problem, body))
+      context.warn(fmt::format("{} was seen as one with something else that moves for {:.2g} s about the impact: if that held it, as a hand does, this is no bounce", shot.bodies[body].name, *seconds));
 }
 
-/// What is said to be without gravity, and falls.
-void doubt_weightlessness(const Shot& shot, const Tracks& tracks, std::vector<SolvedImpact>& impacts, Context& context) {
-  constexpr double kFalls = 1.0;  // m/s²
-  const std::optional<double> bend = common_bend(tracks, impacts);
-  if (!bend) return;
-  const std::string what = fmt::format("all flights bend alike, by {:.2g} m/s², though \"gravity\" is 0", *bend);
-  if (*bend < kFalls) {
-    context.warn(fmt::format("{}: {}: what they slide on is not level", shot.name, what));
-    return;
-  }
-  for (SolvedImpact& impact : impacts) {
-    impact.check.reasons.push_back(what + ": something falls");
-    impact.check.fits = false;
-  }
+/// What is said to be without gravity, and bends.
+void doubt_weightlessness(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Context& context) {
+  if (const auto bend = common_bend(tracks, impacts))
+    context.warn(fmt::format("{}: all flights bend alike, by {:.2g} m/s², though \"gravity\" is 0: something falls, what they slide on is not level, or the camera does not look straight at it", shot.name,
+                             *bend));
 }
 
 void reconstruct_into(const Shot& shot, const Options& options, Context& context, Reconstruction& result) {
@@ -251,7 +234,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
       impact.uncertain = uncertainty(impact.solution, options.resamples, options.seed, context);
       weigh_common_error(impact.solution, impact.uncertain, options.resamples, options.seed, context);
       impact.check = check_model(impact.solution, options.held_out, tracks.noise, {shot.bodies[0].name, shot.bodies[1].name});
-      doubt_held(shot, evidence, impact, context);
+      doubt_held(shot, evidence, impact.solution.problem, context);
     }
     doubt_weightlessness(shot, tracks, impacts, context);
   }

@@ -35,32 +35,51 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
   }
 }
 
-/// What the shot says of down is held on to, but flights by themselves may say otherwise. `by_drag`: χ² that drag of the air saves; it looks like gravity that leans back.
-void check_down(const Shot& shot, const std::vector<SolvedImpact>& impacts, double by_drag, Reconstruction& result, Context& context) {
-  constexpr double kWrong = 0.05;         // rad
-  constexpr double kSignificant = 16.0;   // χ²
-  if (!shot.down || shot.gravity == 0.0) return;
+double angle_of_directions(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+/// What the flights by themselves say of the vertical, where that is clearly not what is given; or nothing.
+std::optional<Vec3> down_of_flights(const std::vector<SolvedImpact>& impacts, const Vec3& given, double wrong) {
+  constexpr double kSignificant = 16.0;  // χ²
   Vertical seen;
   for (SolvedImpact impact : impacts) {
     add_covariance(impact.solution.problem, impact.solution.fit);
     seen.add(seen_vertical(impact.solution.problem, impact.solution.fit), 1.0 / static_cast<double>(impacts.size()));
   }
-  const Vec3 given = shot.down->normalized(), found = likeliest(seen, impacts.front().solution.fit.state.down).first;
+  const Vec3 found = likeliest(seen, impacts.front().solution.fit.state.down).first;
   const auto unlikely = [&](const Vec3& down) { return down.dot(seen.precision * down) - 2.0 * seen.sum.dot(down); };
-  const double off = std::atan2(given.cross(found).norm(), given.dot(found));
-  if (!(off > kWrong && unlikely(given) - unlikely(found) > kSignificant)) return;
+  return angle_of_directions(given, found) > wrong && unlikely(given) - unlikely(found) > kSignificant ? std::optional(found) : std::nullopt;
+}
+
+/// A floor whose normal is given, and by the flights leans from the vertical: it slopes, or the normal is wrong.
+void check_normal(const Shot& shot, const std::vector<SolvedImpact>& impacts, Context& context) {
+  const double sloping = radians(8.0);
+  const std::optional<GivenDown> given = given_down(shot);
+  if (shot.down || !given || shot.gravity == 0.0) return;
+  if (const auto found = down_of_flights(impacts, given->down, sloping))
+    context.warn(fmt::format("{}: by the flights the normal of {} leans by {:.0f}° from the vertical: if it is level, its normal is given wrong; if it slopes, give \"down\" too", shot.name, shot.bodies[1].name,
+                             degrees(angle_of_directions(given->down, *found))));
+}
+
+/// What the shot says of down is held on to, but flights by themselves may say otherwise. `by_drag`: χ² that drag of the air saves; it looks like gravity that leans back.
+void check_down(const Shot& shot, const std::vector<SolvedImpact>& impacts, double by_drag, Reconstruction& result, Context& context) {
+  constexpr double kWrong = 0.05;         // rad
+  constexpr double kSignificant = 16.0;   // χ²
+  if (!shot.down || shot.gravity == 0.0) return;
+  const Vec3 given = shot.down->normalized();
+  const std::optional<Vec3> found = down_of_flights(impacts, given, kWrong);
+  if (!found) return;
   std::vector<SolvedImpact> freed = impacts;
   double saved = 0.0;  // χ²
   for (SolvedImpact& impact : freed) {
     const double before = impact.solution.fit.cost;
-    impact.solution.problem.down = found;
+    impact.solution.problem.down = *found;
     impact.solution.problem.down_sigma = kDownSigma;
     impact.solution.fit = settle(impact.solution.problem, impact.solution.fit.state);
     if (!impact.solution.fit.usable) return;
     saved += 2.0 * (before - impact.solution.fit.cost);
   }
   if (!(saved > by_drag + kSignificant)) return;
-  context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(off)));
+  context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(angle_of_directions(given, *found))));
   add_alternative("with gravity as the flights have it", freed, saved, result);
 }
 
@@ -166,6 +185,7 @@ void remark_on(const Shot& shot, const Options& options, const Tracks& tracks, c
   const double by_drag = look_for_drag(shot, options, impacts, result, context);
   add_doubt_of_slowing(impacts, result);
   check_down(shot, impacts, by_drag, result, context);
+  check_normal(shot, impacts, context);
   doubt_shutter(shot, impacts, result, context);
 }
 

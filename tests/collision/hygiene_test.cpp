@@ -230,6 +230,7 @@ TEST(Hygiene, AChangedRateIsSeenByItsStamps) {
   const std::vector<double> times = frame_times(stamps, 59.0 / stamps.back(), {}, "v", context);
   for (std::size_t k = 0; k < stamps.size(); ++k) EXPECT_NEAR(times[k], stamps[k], 1e-9) << k;
   EXPECT_TRUE(warned(context, "they drift by 2.8"));
+  EXPECT_NEAR(frame_times(stamps, 59.0 / stamps.back(), 240.0, "v", context).back(), 59.0 / 240.0, 1e-9);
   for (int k = 0; k < 60; ++k) shaken.push_back((k + 0.1 * (k % 2)) / 30.0);  // stamps of an even rate, told a little early and late
   Context even;
   EXPECT_NEAR(frame_times(shaken, 30.0, {}, "v", even)[41], 41.0 / 30.0, 1e-9);

@@ -29,7 +29,7 @@ TEST(Doubts, SurfaceWithinABoxIsThatOfSeveralThings) {
   EXPECT_EQ(said_of({below, above}, {below, above}), std::vector<std::string>());
   const std::vector<std::string> said = said_of({all, above}, {below, above});
   ASSERT_EQ(said.size(), 1u);
-  EXPECT_EQ(said[0].find("may be several things, or no box, as surface was seen within it: box 1 ("), 0u) << said[0];
+  EXPECT_EQ(said[0].find("may be several things, no box, or less than its box, as surface was seen within it: box 1 ("), 0u) << said[0];
 }
 
 TEST(Doubts, AMostlyFreeBoxIsNamedOnce) {

@@ -4,19 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "collision/solve/unknowns.h"
-#include "collision/video/frame_pixels.h"
+#include "collision/video/mask_shape.h"
 
 namespace unseen::collision {
 namespace {
 
-constexpr double kLong = 0.1;                // s: no bounce takes as long
-constexpr double kMore = 1.5;                // areas of the body: what is seen is not it alone
-constexpr int kFewestFrames = 2;
-constexpr double kOff = 0.5, kFarOff = 1.0;  // diameters: in each of so many frames, and in one of them
+constexpr double kLong = 0.1;      // s, and
+constexpr int kFewestFrames = 3;   // no bounce takes as long
+constexpr double kMore = 1.5;      // areas of the body: what is seen is not it alone
 
 /// The last sighting before the impact, or the first one after it; null if there is none with a region.
 const TrackPoint* next_to_impact(const Footage& footage, const Tracks& tracks, const Problem& problem, int body, bool after) {
@@ -29,60 +26,49 @@ const TrackPoint* next_to_impact(const Footage& footage, const Tracks& tracks, c
   return known ? &*found : nullptr;
 }
 
-/// Those of a frame that are as near as `reach` (px) to some of the frame before.
-std::vector<const Region*> connected(const std::vector<const Region*>& before, const std::vector<Region>& regions, int reach) {
-  std::vector<const Region*> now;
-  for (const Region& region : regions) {
-    const cv::Rect about = region.box + cv::Size(2 * reach, 2 * reach) - cv::Point(reach, reach);
-    if (std::any_of(before.begin(), before.end(), [&](const Region* b) { return !(b->box & about).empty(); })) now.push_back(&region);
-  }
-  return now;
+/// Whether two regions are as near as `reach` (px).
+bool are_near(const Region& a, const Region& b, int reach) {
+  const cv::Rect wide = (a.box + cv::Size(2 * reach, 2 * reach) - cv::Point(reach, reach)) & b.box;
+  if (wide.empty()) return false;
+  cv::Mat part = cv::Mat::zeros(wide.size() + cv::Size(2 * reach, 2 * reach), CV_8U), near;  // of a, as far as it can be near
+  const cv::Point corner = wide.tl() - cv::Point(reach, reach);
+  const cv::Rect own = cv::Rect(corner, part.size()) & a.box;
+  a.mask(own - a.box.tl()).copyTo(part(own - corner));
+  cv::dilate(part, near, disc(2 * reach + 1));
+  return cv::countNonZero(near(wide - corner) & b.mask(wide - b.box.tl())) > 0;
 }
 
-/// px from a region; 0 = in it.
-double distance(const Region& region, const cv::Point2d& pixel) {
-  std::vector<cv::Point> inside;
-  cv::findNonZero(region.mask, inside);
-  double least = std::numeric_limits<double>::infinity();
-  for (const cv::Point& p : inside) least = std::min(least, std::max(cv::norm(cv::Point2d(p + region.box.tl()) - pixel) - 0.5, 0.0));
-  return least;
+/// Those of a frame that are near some of the frame before.
+std::vector<const Region*> connected(const std::vector<const Region*>& before, const std::vector<Region>& regions, int reach) {
+  std::vector<const Region*> now;
+  for (const Region& region : regions)
+    if (std::any_of(before.begin(), before.end(), [&](const Region* b) { return are_near(*b, region, reach); })) now.push_back(&region);
+  return now;
 }
 
 }  // namespace
 
-std::optional<Held> held_between_flights(const Footage& footage, const ShotCamera& camera, const Tracks& tracks, const Solution& solution, int body) {
-  const Problem& problem = solution.problem;
+std::optional<double> seconds_held(const Footage& footage, const Tracks& tracks, const Problem& problem, int body) {
+  if (!problem.fixed) return std::nullopt;  // two bodies that collide are seen as one
   const TrackPoint *last = next_to_impact(footage, tracks, problem, body, false), *first = next_to_impact(footage, tracks, problem, body, true);
-  if (!problem.fixed || !last || !first) return std::nullopt;  // two bodies that collide are seen as one
-  const StateT<double> state = values_of(problem, solution.fit.state);
-  const double diameter = std::max(last->diameter, first->diameter);
-  std::vector<const Region*> carriers{&footage.regions[last->frame][last->region]};
-  const double body_area = std::max(carriers[0]->area, footage.regions[first->frame][first->region].area);
-  Held held{first->time - last->time, 0.0};
-  const int reach = static_cast<int>(std::ceil(diameter));
-  int frames = 0, off_frames = 0, with_more = 0;
+  if (!last || !first || first->time - last->time < kLong || first->frame - last->frame <= kFewestFrames) return std::nullopt;
+  const Region &start = footage.regions[last->frame][last->region], &end = footage.regions[first->frame][first->region];
+  const double body_area = std::max(start.area, end.area);
+  const int reach = static_cast<int>(std::ceil(std::max(start.diameter, end.diameter)));
+  std::vector<const Region*> carriers{&start};
+  int frames = 0, with_more = 0;
   for (int f = last->frame + 1; f < first->frame; ++f) {
     if (footage.doubled[f]) continue;
-    const std::vector<Region>& regions = footage.regions[f];
-    carriers = connected(carriers, regions, reach);
-    const double time = footage.times[f];
-    const Vec2 led = problem.camera.project(position_at<double>(problem, state, body, time > solution.fit.state.time, time));
-    std::vector<cv::Point2d> pixel{{led.x(), led.y()}};
-    to_frame_pixels(pixel, f, camera, footage);
-    double off = std::numeric_limits<double>::infinity(), area = 0.0;
-    for (const Region& region : regions) off = std::min(off, distance(region, pixel[0]));
+    carriers = connected(carriers, footage.regions[f], reach);
+    if (carriers.empty()) return std::nullopt;
+    double area = 0.0;
     for (const Region* region : carriers) area += region->area;
     ++frames;
     with_more += area > kMore * body_area;
-    if (!std::isfinite(off)) continue;
-    off_frames += off > kOff * diameter;
-    held.off = std::max(held.off, off);
   }
-  const Region* end = &footage.regions[first->frame][first->region];
   const std::vector<const Region*> then = connected(carriers, footage.regions[first->frame], reach);
-  if (std::find(then.begin(), then.end(), end) == then.end() || held.seconds < kLong || 2 * with_more < frames) return std::nullopt;
-  if (off_frames < kFewestFrames || held.off < kFarOff * diameter) held.off = 0.0;
-  return held;
+  const bool held = frames >= kFewestFrames && 2 * with_more >= frames && std::find(then.begin(), then.end(), &end) != then.end();
+  return held ? std::optional(first->time - last->time) : std::nullopt;
 }
 
 }  // namespace unseen::collision

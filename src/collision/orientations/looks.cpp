@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "collision/orientations/views.h"
-#include "collision/video/frame_pixels.h"
 #include "core/linear.h"
 #include "io/clip.h"
 
@@ -22,6 +22,37 @@ constexpr double kSpur = 0.06;       // of the radius
 constexpr int kViews = 200;
 constexpr double kPart = 0.8, kExcess = 1.35;  // of the least and the largest area that the body can show
 constexpr double kAround = 1.15;     // of the radius: half the picture
+
+bool distorted(const ShotCamera& camera) {
+  return std::any_of(camera.distortion.begin(), camera.distortion.end(), [](double k) { return k != 0.0; });
+}
+
+cv::Matx33d intrinsics(const Camera& c) { return {c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1}; }
+
+/// Pixels of a decoded frame as pixels of the tracks: without distortion, then moved to the first frame's place.
+void to_track_pixels(std::vector<cv::Point2d>& pixels, int frame, const ShotCamera& camera, const Footage& footage) {
+  if (distorted(camera)) {
+    const cv::Matx33d k = intrinsics(camera.camera);
+    const std::vector<double> distortion(camera.distortion.begin(), camera.distortion.end());
+    cv::undistortPoints(pixels, pixels, k, distortion, cv::noArray(), k);
+  }
+  if (!footage.shift.empty()) cv::transform(pixels, pixels, footage.shift[static_cast<std::size_t>(frame)]);
+}
+
+/// The way back.
+void to_frame_pixels(std::vector<cv::Point2d>& pixels, int frame, const ShotCamera& camera, const Footage& footage) {
+  if (!footage.shift.empty()) {
+    cv::Mat back;
+    cv::invertAffineTransform(footage.shift[static_cast<std::size_t>(frame)], back);
+    cv::transform(pixels, pixels, back);
+  }
+  if (!distorted(camera)) return;
+  std::vector<cv::Point3d> rays;
+  const Camera& c = camera.camera;
+  for (const cv::Point2d& p : pixels) rays.emplace_back((p.x - c.cx) / c.fx, (p.y - c.cy) / c.fy, 1.0);
+  const std::vector<double> distortion(camera.distortion.begin(), camera.distortion.end());
+  cv::projectPoints(rays, cv::Vec3d::all(0), cv::Vec3d::all(0), intrinsics(c), distortion, pixels);
+}
 
 const Region* region_of(const TrackPoint& point, const Footage& footage) {
   const auto frame = static_cast<std::size_t>(point.frame);

@@ -57,10 +57,10 @@ std::optional<Drag> likely_drag(const std::vector<SolvedImpact>& impacts, double
 struct Likely {
   std::vector<double> densities;
   std::string who;
-  bool surely = false;  ///< it has one of them
+  bool usual = false;  ///< most such have one of them
 };
 
-/// Large balls are hollow: of a basketball 83, a football 77, a volleyball 56. Others may be denser than a tennis ball.
+/// Nearly all large balls are hollow: of a basketball 83, a football 77, a volleyball 56. Others may be denser than a tennis ball.
 Likely likely_densities(const Body& body, const Solid& solid) {
   constexpr double kLarge = 0.16;  // m
   if (body.shape == Shape::sphere && solid.mass.extent > kLarge) return {{85.0, 65.0}, ", as a large ball's", true};
@@ -85,10 +85,10 @@ void doubt_light_bodies(const Shot& shot, const std::vector<SolvedImpact>& impac
     const double c = pooled(restitutions_of(solved)).value;
     if (c >= result.restitution->low && c <= result.restitution->high) continue;
     const bool little = std::abs(c - result.restitution->value) < kLittle;
-    if (little || likely.surely) lightest = solved;
+    if (little || likely.usual) lightest = solved;
     if (little || said) continue;
     context.warn(fmt::format("no mass is given, so that drag of the air is left out: c would be {:.3f} if the density were {:.0f} kg/m³{}; give \"mass\" in kg", c, density, likely.who));
-    if (!likely.surely) return;
+    if (!likely.usual) return;
     said = true;
   }
   if (!lightest.empty()) widen_to_hold(lightest, result);

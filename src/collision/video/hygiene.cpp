@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "unseen/core/quantile.h"
@@ -163,9 +164,8 @@ std::vector<double> steps_of(const std::vector<double>& stamps, double typical) 
 
 /// Frame times that the frames are off an even rate at most, as those of a phone that takes fewer where it gets darker.
 double drift_of(const std::vector<double>& steps) {
-  double sum = 0.0, at = 0.0, drift = 0.0;
-  for (const double step : steps) sum += step;
-  const double mean = sum / static_cast<double>(steps.size());
+  const double mean = std::accumulate(steps.begin(), steps.end(), 0.0) / static_cast<double>(steps.size());
+  double at = 0.0, drift = 0.0;
   for (const double step : steps) drift = std::max(drift, std::abs(at += step - mean));
   return drift;
 }
@@ -216,7 +216,8 @@ std::vector<double> frame_times(const std::vector<double>& stamps, double file_f
   const std::string how = uneven > 0 ? fmt::format("{} of {} steps, the longest {:.1f} frame times", uneven, steps.size(), longest)
                                      : fmt::format("they drift by {:.1f} frame times", drift);
   context.warn(fmt::format("{}: the time stamps are uneven ({}); they are used instead of an even frame rate", name, how));
-  const double step = fps ? 1.0 / *fps : typical;  // the file's own rate counts the missing frames too
+  double step = fps ? 1.0 / *fps : typical;  // the file's own rate counts the missing frames too
+  if (fps && uneven == 0) step *= static_cast<double>(steps.size()) / std::accumulate(steps.begin(), steps.end(), 0.0);  // a rate of all of them
   for (std::size_t k = 1; k < times.size(); ++k) times[k] = times[k - 1] + steps[k - 1] * step;
   return times;
 }

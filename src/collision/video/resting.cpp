@@ -3,11 +3,14 @@
 #include "collision/video/resting.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "collision/video/mask_shape.h"
 #include "collision/video/other_colors.h"
+#include "unseen/core/quantile.h"
 
 namespace unseen::collision {
 namespace {
@@ -17,6 +20,7 @@ constexpr double kDarkest = 8.0, kShade = 0.1;  // grey levels, and share of the
 constexpr double kUnlike = 10.0;    // grey levels off it, beside what is farther off: of the same body or its shadow
 constexpr double kBeside = 1.0;     // so far beside it, in square roots of its area
 constexpr double kRevealed = 0.25;  // of a part's border: so much of what is behind it has to be seen
+constexpr double kAnother = 60.0;   // grey levels off the typical colour of a thing: none of its own
 constexpr double kSmoother = 0.6;   // what is behind: its step at the outline, as a share of that of the median
 constexpr int kSmallest = 30;       // px
 constexpr int kMargin = 12;         // px, of what is looked at around a part
@@ -115,27 +119,41 @@ cv::Mat with_shadow(const cv::Mat& picture, const cv::Mat& part, const OtherColo
   return whole;
 }
 
-/// What lies behind a part: of its own and the other colours the one that is most like what is around it, if it may be that or is of a texture there; or else what is around it.
-/// `seen` is 255 where it is another colour.
-cv::Mat behind(const cv::Mat& picture, const cv::Mat& part, const OtherColors& others, const cv::Point& corner, cv::Mat& seen) {
+/// What lies behind a part.
+struct Behind {
+  cv::Mat picture;  ///< the other colour that is most like what is around it, if it may be that or is of a texture there; or else what is around it
+  cv::Mat seen;     ///< 255 where it is such a colour
+  cv::Mat own;      ///< 255 where the picture's own colour, which is not the thing's, may be that of a texture there, and is more like what is around it
+};
+
+Behind behind(const cv::Mat& picture, const cv::Mat& part, const cv::Vec3b& thing, const OtherColors& others, const cv::Point& corner) {
   const cv::Mat fill = surroundings(picture, part);
   const std::vector<cv::Vec3b> texture = texture_around(picture, part);
-  cv::Mat second = picture.clone();
-  seen = cv::Mat::zeros(part.size(), CV_8U);
+  Behind found{picture.clone(), cv::Mat::zeros(part.size(), CV_8U), cv::Mat::zeros(part.size(), CV_8U)};
   for (int y = 0; y < part.rows; ++y)
     for (int x = 0; x < part.cols; ++x) {
       if (!part.at<unsigned char>(y, x)) continue;
       const cv::Vec3f& expected = fill.at<cv::Vec3f>(y, x);
-      std::vector<cv::Vec3b> colors = others.at(corner + cv::Point(x, y));
       const auto may_be_behind = [&](const cv::Vec3b& c) { return is_like(c, expected) || is_among(texture, c); };
+      std::vector<cv::Vec3b> colors = others.at(corner + cv::Point(x, y));
       std::erase_if(colors, [&](const cv::Vec3b& c) { return !may_be_behind(c); });
       const auto nearest = std::min_element(colors.begin(), colors.end(), [&](const cv::Vec3b& a, const cv::Vec3b& b) { return farthest(a, expected) < farthest(b, expected); });
-      cv::Vec3b& color = second.at<cv::Vec3b>(y, x);
-      if (may_be_behind(color) && (nearest == colors.end() || farthest(color, expected) <= farthest(*nearest, expected))) continue;
-      color = nearest == colors.end() ? cv::Vec3b(expected) : *nearest;
-      if (nearest != colors.end()) seen.at<unsigned char>(y, x) = 255;
+      const cv::Vec3b own = picture.at<cv::Vec3b>(y, x);
+      found.picture.at<cv::Vec3b>(y, x) = nearest == colors.end() ? cv::Vec3b(expected) : *nearest;
+      if (nearest != colors.end()) found.seen.at<unsigned char>(y, x) = 255;
+      if (!texture.empty() && farthest(own, thing) > kAnother && may_be_behind(own) && (nearest == colors.end() || farthest(own, expected) <= farthest(*nearest, expected)))
+        found.own.at<unsigned char>(y, x) = 255;
     }
-  return second;
+  return found;
+}
+
+/// Channel by channel.
+cv::Vec3b median_color(const cv::Mat& picture, const cv::Mat& part) {
+  std::array<std::vector<unsigned char>, 3> values;
+  for (int y = 0; y < part.rows; ++y)
+    for (int x = 0; x < part.cols; ++x)
+      for (int c = 0; c < 3 && part.at<unsigned char>(y, x); ++c) values[static_cast<std::size_t>(c)].push_back(picture.at<cv::Vec3b>(y, x)[c]);
+  return {median(std::move(values[0])), median(std::move(values[1])), median(std::move(values[2]))};
 }
 
 /// Mean colour difference between the inner and the outer border of a part, the inner one taken from `inside`.
@@ -181,15 +199,16 @@ void remove_resting(const std::vector<cv::Mat>& frames, const cv::Mat& noise, cv
     const cv::Rect box = cv::Rect(stats.at<int>(i, cv::CC_STAT_LEFT) - margin, stats.at<int>(i, cv::CC_STAT_TOP) - margin,
                                   stats.at<int>(i, cv::CC_STAT_WIDTH) + 2 * margin, stats.at<int>(i, cv::CC_STAT_HEIGHT) + 2 * margin) &
                          cv::Rect({0, 0}, picture.size());
-    const cv::Mat part = with_shadow(picture(box), labels(box) == i, others, box.tl(), reach);
-    cv::Mat smaller, larger, largest, seen;
+    const cv::Mat core = labels(box) == i, part = with_shadow(picture(box), core, others, box.tl(), reach);
+    cv::Mat smaller, larger, largest;
     cv::erode(part, smaller, disc(5));
     cv::dilate(part, larger, disc(5));
     cv::dilate(larger, largest, disc(5));
-    const cv::Mat inner = part & ~smaller, outer = largest & ~larger, second = behind(picture(box), larger, others, box.tl(), seen);
-    if (cv::countNonZero(inner & seen) < kRevealed * cv::countNonZero(inner)) continue;
-    const double kept = step_at_outline(picture(box), picture(box), inner, outer), other = step_at_outline(second, picture(box), inner, outer);
-    if (other < kSmoother * kept) second.copyTo(picture(box), larger);
+    const cv::Mat inner = part & ~smaller, outer = largest & ~larger;
+    const Behind second = behind(picture(box), larger, median_color(picture(box), core), others, box.tl());
+    if (cv::countNonZero(inner & second.seen) < kRevealed * cv::countNonZero(inner)) continue;
+    const double kept = step_at_outline(picture(box), picture(box), inner, outer), other = step_at_outline(second.picture, picture(box), inner, outer);
+    if (other < kSmoother * kept) second.picture.copyTo(picture(box), larger & ~second.own);
   }
 }
 

@@ -75,7 +75,7 @@ void warn_of_no_boxes(const DepthView& view, const std::vector<double>& toleranc
     else if (const double deep = share_within(view, box, tolerance[i]); deep > kMuchWithin) within.emplace_back(deep, cuboids[i].id);
   }
   if (!free.empty()) context.warn("what was seen is no box, and its box holds space that was seen free: box " + with_shares(std::move(free)));
-  if (!within.empty()) context.warn("may be several things, or no box, as surface was seen within it: box " + with_shares(std::move(within)));
+  if (!within.empty()) context.warn("may be several things, no box, or less than its box, as surface was seen within it: box " + with_shares(std::move(within)));
 }
 
 void warn_of_falls(const std::vector<char>& falls, double push, Completion& result, Context& context) {
