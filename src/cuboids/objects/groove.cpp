@@ -67,16 +67,20 @@ std::vector<double> grooves(const DepthView& view, const OrientedBox& box, int a
   }
   const auto begin = places.begin();
   const auto is_closed = [&](int from, int to) { return static_cast<double>(std::count(begin + from, begin + to, Place::closed)) >= kLeastSide * count; };
-  const auto is_open = [&](int i) { return i < count && (places[i] == Place::open || places[i] == Place::half_open); };
   std::vector<double> found;
-  for (int i = 0; i < count; ++i) {
-    if (!is_open(i)) continue;
-    const int first = i;
-    while (is_open(i)) ++i;
-    if (i - first < kNarrowest || i - first > kWidest * count || !is_closed(0, first) || !is_closed(i, count)) continue;
-    const double middle = 0.5 * (place(first) + place(i - 1));
-    if (std::count(begin + first, begin + i, Place::open) >= kNarrowest || is_open_within(view, box, axis, middle, kAsDeep * 2.0 * half * (i - first) / count)) found.push_back(middle);
+  for (const bool of_two_sides : {true, false}) {
+    const auto is_open = [&](int i) { return i < count && (places[i] == Place::open || (!of_two_sides && places[i] == Place::half_open)); };
+    for (int i = 0; i < count; ++i) {
+      if (!is_open(i)) continue;
+      const int first = i;
+      while (is_open(i)) ++i;
+      if (i - first < kNarrowest || i - first > kWidest * count || !is_closed(0, first) || !is_closed(i, count)) continue;
+      const double from = place(first), to = place(i - 1), middle = 0.5 * (from + to);
+      if (std::any_of(found.begin(), found.end(), [&](double known) { return from <= known && known <= to; })) continue;
+      if (of_two_sides || is_open_within(view, box, axis, middle, kAsDeep * 2.0 * half * (i - first) / count)) found.push_back(middle);
+    }
   }
+  std::sort(found.begin(), found.end());
   return found;
 }
 
