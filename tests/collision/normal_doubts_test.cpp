@@ -66,6 +66,17 @@ TEST(LevelFloor, AnOrdinaryBounceIsNotAmbiguous) {
   EXPECT_TRUE(reconstruct(filmed({{0, -2.2, 0.7}, 0, 20, {-0.5, 0, 1.1}, {0.7, 0, 0}, 0, 1, 50}, 1), {}, context).ambiguous.empty());
 }
 
+TEST(LevelFloor, ANormalThatTheFlightsContradictIsSaid) {
+  for (const double off : {0.0, 20.0}) {  // degrees, across the view
+    Shot shot = filmed({{0, -2.2, 0.7}, 0, 0, {-0.5, 0, 1.1}, {0.7, 0, 0}, 0, 2, 50}, 1);
+    shot.bodies[1].normal = Vec3(std::sin(radians(off)), -std::cos(radians(off)), 0);
+    Context context;
+    const std::vector<std::string> said = reconstruct(shot, {}, context).summary.warnings;
+    EXPECT_EQ(std::any_of(said.begin(), said.end(), [](const std::string& w) { return w.find("leans by 20° from the vertical") != std::string::npos; }), off > 0.0) << off;
+    EXPECT_EQ(std::any_of(said.begin(), said.end(), [](const std::string& w) { return w.find("leans by") != std::string::npos; }), off > 0.0) << off;
+  }
+}
+
 TEST(UnknownNormal, AWallThatNobodyDescribedReadsTheRestitution) {
   const View wall{{0, -2.2, 0.7}, 0, 0, {0.8, 0.0, 0.6}, {-3.5, 0.2, 1.9}, 80, 1, 30};
   for (int seed = 1; seed <= 3; ++seed) {
