@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/doubts/vertical.h"
 #include "collision/solve/best_fit.h"
 #include "collision/solve/solve.h"
 
@@ -14,8 +15,6 @@ namespace unseen::collision {
 namespace {
 
 constexpr double kElsewhere = 60.0 * kPi / 180.0;  // between pushes off one surface there is less, with friction and noise
-
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 bool fits(Solution solution, const Options& options, double noise) {
   add_covariance(solution.problem, solution.fit);

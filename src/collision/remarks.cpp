@@ -35,8 +35,6 @@ void compare_scales(const Shot& shot, const std::vector<SolvedImpact>& impacts, 
   }
 }
 
-double angle_of_directions(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 /// What the flights by themselves say of the vertical, where that is clearly not what is given; or nothing.
 std::optional<Vec3> down_of_flights(const std::vector<SolvedImpact>& impacts, const Vec3& given, double wrong) {
   constexpr double kSignificant = 16.0;  // χ²
@@ -47,7 +45,7 @@ std::optional<Vec3> down_of_flights(const std::vector<SolvedImpact>& impacts, co
   }
   const Vec3 found = likeliest(seen, impacts.front().solution.fit.state.down).first;
   const auto unlikely = [&](const Vec3& down) { return down.dot(seen.precision * down) - 2.0 * seen.sum.dot(down); };
-  return angle_of_directions(given, found) > wrong && unlikely(given) - unlikely(found) > kSignificant ? std::optional(found) : std::nullopt;
+  return angle_between(given, found) > wrong && unlikely(given) - unlikely(found) > kSignificant ? std::optional(found) : std::nullopt;
 }
 
 /// A floor whose normal is given, and by the flights leans from the vertical: it slopes, or the normal is wrong.
@@ -57,7 +55,7 @@ void check_normal(const Shot& shot, const std::vector<SolvedImpact>& impacts, Co
   if (shot.down || !given || shot.gravity == 0.0) return;
   if (const auto found = down_of_flights(impacts, given->down, sloping))
     context.warn(fmt::format("{}: by the flights the normal of {} leans by {:.0f}° from the vertical: if it is level, its normal is given wrong; if it slopes, give \"down\" too", shot.name, shot.bodies[1].name,
-                             degrees(angle_of_directions(given->down, *found))));
+                             degrees(angle_between(given->down, *found))));
 }
 
 /// What the shot says of down is held on to, but flights by themselves may say otherwise. `by_drag`: χ² that drag of the air saves; it looks like gravity that leans back.
@@ -79,7 +77,7 @@ void check_down(const Shot& shot, const std::vector<SolvedImpact>& impacts, doub
     saved += 2.0 * (before - impact.solution.fit.cost);
   }
   if (!(saved > by_drag + kSignificant)) return;
-  context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(angle_of_directions(given, *found))));
+  context.warn(fmt::format("{}: down: by the flights gravity points {:.0f}° away from where it is given", shot.name, degrees(angle_between(given, *found))));
   add_alternative("with gravity as the flights have it", freed, saved, result);
 }
 

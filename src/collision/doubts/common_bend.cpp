@@ -3,12 +3,11 @@
 #include "collision/doubts/common_bend.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <span>
 
-#include "core/linear.h"
+#include "collision/tracks/curve.h"
 #include "unseen/core/quantile.h"
 
 namespace unseen::collision {
@@ -24,28 +23,16 @@ struct Bend {
   double weight = 0;  ///< 1 / variance of either coordinate
 };
 
-double squared(double x) { return x * x; }
-
 /// `noise`: px; `systematic`: how far the middle of the flight may be off its ends, px.
 std::optional<Bend> bend_of(std::span<const TrackPoint> points, double noise, double systematic) {
   if (points.size() < kFewest) return std::nullopt;
-  const double start = points.front().time, length = points.back().time - start;
+  const double start = points.front().time, end = points.back().time, length = end - start;
   if (length <= 0.0) return std::nullopt;
-  Mat3 normal = Mat3::Zero();
-  std::array<Vec3, 2> right{Vec3::Zero(), Vec3::Zero()};
-  for (const TrackPoint& p : points) {
-    const double t = (p.time - start) / length - 0.5;
-    const Vec3 powers(1.0, t, t * t);
-    normal += powers * powers.transpose();
-    for (int k = 0; k < 2; ++k) right[k] += powers * p.pixel[k];
-  }
-  const Vec3 x = solve_symmetric(normal, right[0]), y = solve_symmetric(normal, right[1]), unit = solve_symmetric(normal, Vec3(0, 0, 1));
-  const double per_second = 2.0 / (length * length);
-  Bend bend;
-  bend.acceleration = per_second * Vec2(x[2], y[2]);
-  bend.direction = Vec2(x[1], y[1]).normalized();
-  bend.weight = 1.0 / (squared(per_second * noise) * unit[2] + squared(8.0 * systematic / (length * length)));
-  return bend;
+  CurveSums sums(0.5 * (start + end) / length);
+  for (const TrackPoint& p : points) sums.add(p.time / length, p.pixel);
+  const Curve curve = sums.fit();
+  const double per_second = 1.0 / (length * length), variance = noise * noise * curve.cofactor(2, 2) + 64.0 * systematic * systematic;
+  return Bend{per_second * curve.curvature, curve.velocity.normalized(), 1.0 / (per_second * per_second * variance)};
 }
 
 }  // namespace

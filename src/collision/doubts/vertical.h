@@ -2,9 +2,14 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
+#include <cmath>
+
 #include "collision/solve/solve.h"
 
 namespace unseen::collision {
+
+/// rad, from 0 to π.
+inline double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// What is known of the vertical, as −log likelihood: ½ gᵀ·precision·g − sum·g and a constant, of the unit direction g of gravity.
 struct Vertical {
