@@ -9,7 +9,7 @@
 
 #include "collision/doubts/vertical.h"
 #include "collision/solve/best_fit.h"
-#include "collision/solve/solve.h"
+#include "collision/solve/estimates.h"
 
 namespace unseen::collision {
 namespace {

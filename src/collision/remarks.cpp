@@ -13,6 +13,7 @@
 #include "collision/doubts/vertical.h"
 #include "collision/shot_problem.h"
 #include "collision/solve/drag.h"
+#include "collision/solve/estimates.h"
 #include "collision/solve/slowing.h"
 #include "core/linear.h"
 #include "unseen/core/quantile.h"

@@ -11,6 +11,7 @@
 #include "collision/one_surface.h"
 #include "collision/shot_problem.h"
 #include "collision/solve/drag.h"
+#include "collision/solve/estimates.h"
 #include "collision/solve/slowing.h"
 #include "collision/solve/unknowns.h"
 #include "collision/split.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the unseen authors
 // What is wrong with a file rather than with what it shows: repeated, missing and broken frames, uneven stamps.
-#include "collision/video/hygiene.h"
+#include "collision/video/repeats.h"
+#include "collision/video/time_stamps.h"
 
 #include <gtest/gtest.h>
 

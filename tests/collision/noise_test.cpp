@@ -10,6 +10,7 @@
 
 #include "collision/doubts/restitution.h"
 #include "collision/solve/best_fit.h"
+#include "collision/solve/estimates.h"
 #include "collision/solve/solve.h"
 #include "collision/solve/unknowns.h"
 #include "collision/two_balls.h"

@@ -8,6 +8,7 @@
 #include "collision/doubts/restitution.h"
 #include "collision/doubts/uncertainty.h"
 #include "collision/solve/best_fit.h"
+#include "collision/solve/estimates.h"
 #include "collision/solve/rotation.h"
 #include "collision/solve/spin_starts.h"
 #include "collision/solve/unknowns.h"

@@ -9,6 +9,7 @@
 
 #include "collision/doubts/restitution.h"
 #include "collision/shot_problem.h"
+#include "collision/solve/estimates.h"
 
 namespace unseen::collision {
 namespace {

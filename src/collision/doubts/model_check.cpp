@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "collision/solve/estimates.h"
 #include "collision/solve/residuals.h"
 #include "collision/solve/solve.h"
 #include "collision/solve/unknowns.h"

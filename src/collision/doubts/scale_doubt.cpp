@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/solve/estimates.h"
 #include "collision/solve/unknowns.h"
 #include "unseen/core/quantile.h"
 

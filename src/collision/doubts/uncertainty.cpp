@@ -10,6 +10,7 @@
 
 #include "collision/doubts/focal_doubt.h"
 #include "collision/doubts/normal_doubts.h"
+#include "collision/solve/estimates.h"
 #include "collision/solve/unknowns.h"
 #include "unseen/core/random.h"
 

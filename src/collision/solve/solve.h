@@ -28,13 +28,4 @@ Fit try_out(const Problem& problem, const State& start);
 /// From there, or from a solution of a similar problem, to the minimum with the shapes, if they are known, touching at the impact.
 Fit settle(const Problem& problem, const State& start);
 
-/// Fills in the covariance of a fit.
-void add_covariance(const Problem& problem, Fit& fit);
-
-/// Value and standard deviation (delta method) of restitution, mass ratio, and kinetic energy after the impact over that before; the covariance
-/// must be there.
-Estimate restitution_of(const Problem& problem, const Fit& fit);
-Estimate mass_ratio_of(const Problem& problem, const Fit& fit);
-Estimate energy_kept_of(const Problem& problem, const Fit& fit);
-
 }  // namespace unseen::collision

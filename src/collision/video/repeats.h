@@ -2,11 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
-
-#include "unseen/core/context.h"
 
 namespace unseen::collision {
 
@@ -23,13 +19,5 @@ Repeats find_repeats(const std::vector<double>& change, const std::vector<double
 
 /// Spaces the frames of a conversion that are no repeats evenly, if the times were even; a repeat keeps the time of what it repeats. True if it did.
 bool share_out_times(const Repeats& repeats, std::vector<double>& times);
-
-/// Whether unevenly spaced frames take as long as so many even ones would: Matroska states a duration only, which is no number of frames then.
-bool lasts_as_announced(const std::vector<double>& stamps, int announced, double fps);
-
-/// Times of the frames, s, the first at 0: frame / fps where the time stamps are even or useless, else the stamps themselves, or, with
-/// `fps`, in its frame times. Warns of uneven stamps.
-std::vector<double> frame_times(const std::vector<double>& stamps, double file_fps, std::optional<double> fps, const std::string& name,
-                                Context& context);
 
 }  // namespace unseen::collision
