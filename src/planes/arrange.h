@@ -37,6 +37,7 @@ struct Model {
   std::vector<Surface> surfaces;
   std::vector<Part> parts;
   bool local_fits = false;  ///< every patch keeps its own fit, related to no other
+  double certain = kCertain;  ///< χ² by its noise, from which a surface is certainly turned out of its own points: the more, the more one frame is asked for
 
   Vec3 normal(const Surface& s) const { return frames[s.frame].direction(locals[s.local]); }
   Plane plane(const Part& p) const { return {normal(surfaces[p.surface]), surfaces[p.surface].offset}; }
@@ -52,7 +53,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
 void refit(Model& model);
 
 /// Whether a plane of this normal certainly turns a patch off its own points, by more than half of what these are off their own plane.
-bool is_turned_out(const Patch& patch, const Vec3& normal);
+bool is_turned_out(const Model& model, const Patch& patch, const Vec3& normal);
 
 /// Refits, and gives surfaces that their frame turned out of their own points a frame of their own: the relations of many small ones
 /// must not carry away a large one that knows better.

@@ -200,6 +200,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   warn_of_up(result, context);
   warn_of_curves(patches, space, context);
   warn_of_right_angles(result, angles, context);
+  warn_of_turned(result, context);
   context.check();
   summary.counts.emplace_back("frames", result.frames.size());
   summary.counts.emplace_back("relations", result.relations.size());

@@ -162,6 +162,40 @@ PointCloud square_with_a_fan(double least, double widest) {
   return cloud;
 }
 
+/// Pixels of quadrilaterals that each are skewed by chance, 3 px wide, and the true direction of each line's pixels.
+PointCloud drawn_quadrilaterals(int columns, int rows, std::vector<Vec3>& along) {
+  Random random(5);
+  std::map<std::pair<int, int>, Vec3> pixels;
+  for (int a = 0; a < columns; ++a)
+    for (int b = 0; b < rows; ++b) {
+      std::vector<Vec3> corners;
+      for (const auto& [x, y] : {std::pair(-80, -90), std::pair(80, -90), std::pair(80, 90), std::pair(-80, 90)})
+        corners.emplace_back(130 + 205 * a + x + 24 * random.uniform() - 12, 130 + 230 * b + y + 24 * random.uniform() - 12, 0);
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 from = corners[k], way = corners[(k + 1) % 4] - from, across(-way.y() / way.norm(), way.x() / way.norm(), 0);
+        for (double t = 0.03; t < 0.97; t += 0.3 / way.norm())
+          for (int w = -1; w <= 1; ++w) {
+            const Vec3 p = from + t * way + w * across;
+            pixels.emplace(std::pair(static_cast<int>(std::round(p.x())), static_cast<int>(std::round(p.y()))), way.normalized());
+          }
+      }
+    }
+  PointCloud cloud;
+  for (const auto& [at, way] : pixels) cloud.positions.emplace_back(at.first, at.second, 0), along.push_back(way);
+  return cloud;
+}
+
+// Among many lines of any direction each is near a right angle to some; pixels tell better than that.
+TEST(Drawings, LinesOfManyDirectionsAreNotForcedIntoLine) {
+  std::vector<Vec3> along;
+  const test::Run r = test::run(drawn_quadrilaterals(4, 3, along), Options());
+  ASSERT_TRUE(r.result.two_dimensional);
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < along.size(); ++i)
+    if (const int plane = r.plane_of_point[i]; plane >= 0) off += std::asin(std::abs(r.result.planes[plane].plane.normal.dot(along[i]))) > radians(1.0);
+  EXPECT_LT(static_cast<double>(off), 0.03 * static_cast<double>(along.size()));
+}
+
 TEST(Drawings, ScansTurnedAgainstEachOtherMakeNoFrame) {
   const test::Run fan = test::run(square_with_a_fan(0.0, 8.0), test::with_scale(0.05));
   EXPECT_EQ(fan.result.frames.size(), 1u);

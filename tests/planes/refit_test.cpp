@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <Eigen/LU>
 
 #include "planes/arrange.h"
@@ -249,6 +251,21 @@ TEST(RefitHeld, ARoughSurfaceIsNotCarriedAwayEither) {
   const Vec3 ground = m.surfaces[0].support.fit.normal;
   refit_held(m, 0.3, Space());
   EXPECT_LT(degrees(line_angle(m.normal(m.surfaces[0]), ground)), 1e-6);
+}
+
+// A smooth surface that is known to ten standard errors is not carried away by much more than it is rough, however coarse the scale.
+TEST(RefitHeld, ASmoothSurfaceIsNotCarriedAwayAtACoarseScale) {
+  Model m = ground_and_tops(0.003, radians(0.4));
+  refit_held(m, 4.0, Space());  // off by 0.24 m, one spread from its centre
+  EXPECT_NE(m.surfaces[0].frame, 0);
+}
+
+// The fewer frames are asked for, the surer a surface must be to have its own.
+TEST(RefitHeld, OneFrameThatIsAskedForKeepsAll) {
+  Model m = ground_and_tops(0.03);
+  m.certain = std::numeric_limits<double>::infinity();
+  refit_held(m, 0.3, Space());
+  EXPECT_EQ(m.surfaces[0].frame, 0);
 }
 
 // Its own fit is no better than what the turn costs, or it is turned by little and the scale says that so much does not matter.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <gtest/gtest.h>
 
+#include "planes/result/remarks.h"
 #include "planes/scenes.h"
 #include "unseen/core/random.h"
 
@@ -52,6 +53,31 @@ TEST(Units, AreSaidWhereTheyCanHardlyBeMetres) {
   EXPECT_FALSE(warned(metres, {}, "millimetres"));
   EXPECT_TRUE(warned(millimetres, {}, "millimetres"));
   EXPECT_FALSE(warned(millimetres, test::with_scale(80), "millimetres")) << "who gives a scale knows the units";
+}
+
+/// Three planes of one direction and one that is related to none; the second and the last are turned by 3°, so many standard errors.
+std::string said_of_turned(double errors, std::size_t points) {
+  Arrangement all;
+  all.directions.resize(2);
+  for (const int direction : {0, 0, 0, 1}) {
+    ArrangedPlane plane;
+    plane.direction = direction;
+    plane.points = points;
+    plane.turned = radians(all.planes.size() % 2 == 1 ? 3.0 : 0.1);
+    plane.turned_error = plane.turned / errors;
+    all.planes.push_back(plane);
+  }
+  Context context;
+  warn_of_turned(all, context);
+  const std::vector<std::string> warnings = context.take_warnings();
+  return warnings.empty() ? "" : warnings.front();
+}
+
+TEST(Turned, RelatedPlanesWhosePointsCertainlySayOtherwiseAreNamed) {
+  EXPECT_NE(said_of_turned(10.0, 100).find("1 plane is turned by more than 1° from what its own points say, up to 3°"), std::string::npos);
+  EXPECT_NE(said_of_turned(10.0, 100).find("(id 1)"), std::string::npos);
+  EXPECT_EQ(said_of_turned(5.0, 100), "");
+  EXPECT_EQ(said_of_turned(10.0, 30), "") << "a few points have little to say";
 }
 
 }  // namespace

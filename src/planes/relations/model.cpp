@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the unseen authors
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "planes/relations/reconcile.h"
@@ -88,7 +89,7 @@ void share_surfaces(const Patches& known, const std::vector<Vec3>& normals, cons
     const Patch& patch = patches[j];
     if (patch.cells.empty()) continue;
     const double variance = std::pow(kExact * grid.tolerance, 2) + std::pow(patch.fit.rms, 2) / std::min(kMostPoints, patch.moments.count);
-    const bool turned_out = !space.is_2d() && is_turned_out(patch, normals[j]);
+    const bool turned_out = !space.is_2d() && is_turned_out(model, patch, normals[j]);
     int to = -1;
     double nearest = 0.5 * grid.tolerance;
     const auto turned_alike = [&](const Sum& sum) {
@@ -178,6 +179,9 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
   model.frames = std::move(r.frames);
   model.constraints = std::move(r.constraints);
   model.local_fits = selection.local_fits;
+  // Scans that make a drawing are turned against each other, which no line's own points tell of; pixels are not.
+  if (space.is_2d() && grid.raster == 0.0) model.certain = std::numeric_limits<double>::infinity();
+  else model.certain = kCertain * std::max(1.0, (1.0 - selection.lambda) / selection.lambda);
 
   if (!space.is_2d() && !model.local_fits) hold_patches(patches, grid.tolerance, space, model, r.frame_of_patch, r.local_of_patch);
   std::vector<Vec3> normals;

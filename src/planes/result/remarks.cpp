@@ -81,6 +81,29 @@ void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Con
   if (right > kMany * all) context.warn("planes at right angles are not related, as the angles asked for do not name 90: add it, as in --angles 60,90");
 }
 
+void warn_of_turned(const Arrangement& result, Context& context) {
+  constexpr double kLeast = kPi / 180.0, kErrors = 8.0;  // that a plane is turned by
+  constexpr std::size_t kFewest = 60, kListed = 5;       // points; planes that are named
+  std::vector<int> sharing(result.directions.size(), 0);
+  std::vector<char> related(result.directions.size(), 0);
+  for (const ArrangedPlane& p : result.planes) related[p.direction] = ++sharing[p.direction] > 1;
+  for (const Relation& r : result.relations) related[r.a] = related[r.b] = 1;
+  std::size_t count = 0;
+  std::string names;
+  double most = 0;
+  for (std::size_t i = 0; i < result.planes.size(); ++i) {
+    const ArrangedPlane& p = result.planes[i];
+    if (!related[p.direction] || p.points < kFewest || p.turned < std::max(kLeast, kErrors * p.turned_error)) continue;
+    if (++count <= kListed) names += (count > 1 ? ", " : "") + std::to_string(i);
+    most = std::max(most, p.turned);
+  }
+  if (count == 0) return;
+  if (count > kListed) names += ", …";
+  context.warn(fmt::format("{} {} turned by more than 1° from what {} own points say, up to {:.2g}°, which noise does not explain: {} relations are not to be trusted ({} {})",
+                           count, count > 1 ? (result.two_dimensional ? "lines are" : "planes are") : (result.two_dimensional ? "line is" : "plane is"), count > 1 ? "their" : "its",
+                           degrees(most), count > 1 ? "their" : "its", count > 1 ? "ids" : "id", names));
+}
+
 void warn_of_up(const Arrangement& result, Context& context) {
   constexpr double kSome = 0.02, kMost = 0.85;  // of the area: roofs from above may be four fifths
   if (result.two_dimensional) return;

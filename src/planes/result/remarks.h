@@ -21,6 +21,9 @@ void warn_of_few(PointSource& source, const Survey& seen, const Space& space, bo
 /// Warns where most patches are strips of curved surfaces.
 void warn_of_curves(const Patches& patches, const Space& space, Context& context);
 
+/// Warns of planes that are related to others although their own points certainly say otherwise: two things in one, or pieces of something else.
+void warn_of_turned(const Arrangement& result, Context& context);
+
 /// Warns where planes are at right angles that the angles asked for do not name.
 void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Context& context);
 

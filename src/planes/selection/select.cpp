@@ -173,6 +173,7 @@ Selection select_frames(const Patches& patches, const AngleSet& angles, const Sp
   const std::vector<Vec3> locals = local_directions(angles, space);
   const double lambda = options.lambda, patch_angle = radians(options.patch_angle);
   Selection s;
+  s.lambda = lambda;
   s.frame_of_patch.assign(patches.patches.size(), -1);
   s.local_of_patch.assign(patches.patches.size(), -1);
   s.before = keep_local_fits(patches, angles, space, locals, lambda, context);

@@ -18,6 +18,7 @@ struct Selection {
   std::vector<std::pair<SelectionProblem, double>> unbounded;  ///< rounds, and the energy that was found for them
   bool time_limit = false;
   bool local_fits = false;  ///< λ = 1: every patch keeps its own fit, related to no other
+  double lambda = 0.5;      ///< it was made with
 };
 
 /// Frames that a set of patches may have, beside those given: single directions from clusters of patch
