@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planes/scan/dashes.h"
 #include "planes/scan/levels.h"
 #include "planes/scan/probes.h"
 #include "unseen/core/error.h"
@@ -22,6 +23,7 @@ constexpr double kLines = 0.2;                              // of the probes, wh
 constexpr double kLeastTolerance = 0.5;                     // of the scale
 constexpr std::size_t kWide = 512, kWideEvery = 4;          // neighbours that tell correlated noise; of every so many probes,
 constexpr double kWideFlat = 0.2, kMostNoise = 0.8;         // if this flat (rms over spread); of the surface there is less noise on this share
+constexpr double kFarthestDash = 6.0;                       // scales between dashes of a line
 constexpr double kStepsSpanned = 2.5;                              // that a scale must span, so that a slant is no staircase
 
 /// Noise (m) over wider neighbourhoods, of those that are flat: correlated noise, and how far scans are out of register, show only there.
@@ -69,6 +71,8 @@ Scale estimate_scale(PointSource& source, const Survey& survey, const Space& spa
   if (levels == 0.0 && !space.is_2d() && kNoise * noise < scale)
     result.tolerance = std::min(scale, std::max(kLeastTolerance * scale, kNoise * wide_noise(tree, space, probes, context)));
   if (kStepsSpanned * step > scale) result = {kStepsSpanned * step, kStepsSpanned * step, step};
+  if (const double pixel = space.is_2d() && survey.share == 1.0 ? rounding_of(survey) : 0.0; pixel > 0.0)
+    if (const double gap = gap_of_dashes(survey, space, pixel, kFarthestDash * scale); kSpacing * gap > scale) result = {kSpacing * gap, kSpacing * gap, 0.0, gap};
   return result;
 }
 
@@ -85,6 +89,7 @@ Scale choose_scale(PointSource& source, const Survey& survey, const Space& space
     if (scale.step > 0.0)
       context.warn(fmt::format("the points lie on levels that are about {:.2g} m apart, as coarse depth leaves them: the scale is {:.1f} times that, "
                                "and what is smaller is lost", scale.step, kStepsSpanned));
+    if (scale.gap > 0.0) context.warn(fmt::format("most lines are dashed: the scale spans their gaps of {:.2g}, and lines that are nearer to each other may become one", scale.gap));
   }
   if (!(scale.scale > 0)) throw InputError("", "scale", fmt::format("{} m", scale.scale), "more than 0");
   if (!(scale.scale <= extent))

@@ -38,10 +38,12 @@ Space space_of(const Survey& survey, bool declared_2d);
 struct Scale {
   double scale = 0, tolerance = 0;  ///< m
   double step = 0;                  ///< m, of the levels that coarse depth has left the points on, if they ask for the scale
+  double gap = 0;                   ///< m, between the dashes of a drawing in pixels, if they ask for it
 };
 
 /// ρ as the larger of 1.25 times the distance to the sixth neighbour and four times the noise of small neighbourhoods, each the median over
-/// probes of the surface; where coarse depth has left the points on levels, at least 2.5 steps of these. Reads the source again if the survey's
+/// probes of the surface; where coarse depth has left the points on levels, at least 2.5 steps of these; where
+/// most of a drawing in pixels is dashes, 1.25 times the gaps. Reads the source again if the survey's
 /// sample holds only a part of it.
 Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context);
 

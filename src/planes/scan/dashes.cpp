@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#include "planes/scan/dashes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planes/scan/moments.h"
+#include "planes/scan/voxel_builder.h"
+#include "unseen/core/quantile.h"
+
+namespace unseen::planes {
+namespace {
+
+constexpr double kElongated = 2.0;                     // times as long as wide is a dash
+constexpr double kTowards = 15.0 * kPi / 180.0;         // of the next dash, and of the way to it: short ones in pixels know their direction no better
+constexpr double kDashed = 0.5;                          // of the points are in dashes that another continues
+constexpr std::size_t kFewestDashes = 12;                    // such dashes
+constexpr double kWidest = 0.8;                        // of the gaps are no wider
+constexpr std::size_t kMostDashes = 5000;              // to look for the next one of each
+
+struct Dash {
+  Vec3 middle, along;  ///< unit
+  double length = 0;   ///< m
+  double points = 0;
+};
+
+/// Sets of pixels that touch, corners included.
+std::vector<Moments> strokes_of(const Survey& survey, double pixel) {
+  KeyTable table;
+  std::vector<Vec3> place;
+  for (const Vec3& p : survey.sample) {
+    const Eigen::Array3d at = ((p - survey.low) / pixel).array().round();
+    const std::size_t index = table.insert({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
+    if (index == place.size()) place.push_back(p);
+  }
+  std::vector<char> seen(place.size(), 0);
+  std::vector<Moments> strokes;
+  std::vector<int> open;
+  for (std::size_t start = 0; start < place.size(); ++start) {
+    if (seen[start]) continue;
+    seen[start] = 1;
+    open = {static_cast<int>(start)};
+    Moments stroke;
+    while (!open.empty()) {
+      const int at = open.back();
+      open.pop_back();
+      stroke += Moments{1.0, place[at], Mat3::Zero()};
+      const VoxelKey key = table.keys()[at];
+      for (int n = 0; n < 27; ++n) {
+        const int next = table.find({key[0] + n % 3 - 1, key[1] + n / 3 % 3 - 1, key[2] + n / 9 - 1});
+        if (next < 0 || seen[next]) continue;
+        seen[next] = 1;
+        open.push_back(next);
+      }
+    }
+    strokes.push_back(stroke);
+  }
+  return strokes;
+}
+
+std::vector<Dash> dashes_of(const std::vector<Moments>& strokes, const Space& space) {
+  constexpr double kPoints = 4;
+  std::vector<Dash> dashes;
+  for (const Moments& stroke : strokes) {
+    if (stroke.count < kPoints) continue;
+    const PlaneFit fit = fit_plane(stroke, space);
+    const Vec3 along = fit.normal.cross(*space.flat_axis).normalized();
+    const double length = std::sqrt(12.0 * along.dot(stroke.scatter * along) / stroke.count);
+    if (length > kElongated * std::sqrt(12.0) * fit.rms) dashes.push_back({stroke.mean, along, length, stroke.count});
+  }
+  return dashes;
+}
+
+/// The gap (m) to the nearest dash that goes on in this direction; infinite if there is none.
+double gap_to_next(const std::vector<Dash>& dashes, const Dash& dash, const Vec3& ahead, double farthest) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const Dash& next : dashes) {
+    const Vec3 way = next.middle - dash.middle;
+    const double far = way.norm(), between = far - 0.5 * (dash.length + next.length);
+    if (&next == &dash || between > std::min({gap, dash.length, next.length, farthest}) || between < 0.0) continue;
+    if (way.dot(ahead) > std::cos(kTowards) * far && std::abs(next.along.dot(dash.along)) > std::cos(kTowards)) gap = between;
+  }
+  return gap;
+}
+
+}  // namespace
+
+double gap_of_dashes(const Survey& survey, const Space& space, double pixel, double farthest) {
+  const std::vector<Dash> dashes = dashes_of(strokes_of(survey, pixel), space);
+  if (dashes.size() < kFewestDashes || dashes.size() > kMostDashes) return 0.0;
+  std::vector<double> gaps;
+  double points = 0;
+  for (const Dash& dash : dashes) {
+    const double before = gap_to_next(dashes, dash, -dash.along, farthest), after = gap_to_next(dashes, dash, dash.along, farthest);
+    if (!std::isfinite(std::min(before, after))) continue;
+    points += dash.points;
+    gaps.push_back(std::isfinite(std::max(before, after)) ? std::max(before, after) : std::min(before, after));
+  }
+  if (gaps.size() < kFewestDashes || points < kDashed * static_cast<double>(survey.sample.size())) return 0.0;
+  return quantile(std::move(gaps), kWidest) + pixel;
+}
+
+}  // namespace unseen::planes

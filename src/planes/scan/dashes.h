@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the unseen authors
+#pragma once
+
+#include "planes/scan/scale.h"
+
+namespace unseen::planes {
+
+/// The gap (m, between middles of pixels) between the dashes that most of a drawing in pixels of this width (m) consists of; 0 where most lines are drawn through. Gaps are no longer than dashes, nor than `farthest` (m).
+double gap_of_dashes(const Survey& survey, const Space& space, double pixel, double farthest);
+
+}  // namespace unseen::planes
