@@ -13,9 +13,9 @@ struct GroundStart {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< of camera_height (m) and the pitch's tangent
 };
 
-/// Of upright people whose ankles are seen, the length of the body in the picture tells the depth, and the lower ankle then lies at ankle
-/// height. How tall each person is, is unknown; cameras are expected where people set them up. What the take gives is kept. Warns where
-/// nothing can be told.
+/// Of people who stand or walk, where they are seen and how large tells height and pitch. How tall each
+/// person is, is unknown; cameras are expected where people set them up. What the take gives is kept. Warns
+/// where nothing can be told, where the pitch is uncertain, and where the camera seems to be rolled.
 GroundStart find_ground(const Take& take, Context& context);
 
 }  // namespace unseen::interactions
