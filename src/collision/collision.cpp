@@ -58,7 +58,7 @@ void reconstruct_into(const Shot& shot, const Options& options, Context& context
       impact.check = check_model(impact.solution, options.held_out, tracks.noise, {shot.bodies[0].name, shot.bodies[1].name});
       warn_of_held(shot, evidence, impact.solution.problem, context);
     }
-    warn_of_weight(shot, tracks, impacts, context);
+    warn_of_common_bend(shot, tracks, impacts, context);
   }
   if (impacts.empty()) {
     summary.status = Status::infeasible;

@@ -90,7 +90,7 @@ void warn_of_held(const Shot& shot, const Evidence& evidence, const Problem& pro
       context.warn(fmt::format("{} was seen as one with something else that moves for {:.2g} s about the impact: if that held it, as a hand does, this is no bounce", shot.bodies[body].name, *seconds));
 }
 
-void warn_of_weight(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Context& context) {
+void warn_of_common_bend(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Context& context) {
   if (const auto bend = common_bend(tracks, impacts))
     context.warn(fmt::format("{}: all flights bend alike, by {:.2g} m/s², though \"gravity\" is 0: something falls, what they slide on is not level, or the camera does not look straight at it", shot.name,
                              *bend));

@@ -20,6 +20,6 @@ std::string nothing_found(const Shot& shot, const Tracks& tracks);
 void warn_of_held(const Shot& shot, const Evidence& evidence, const Problem& problem, Context& context);
 
 /// Warns where a shot is said to be without gravity and all flights bend alike.
-void warn_of_weight(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Context& context);
+void warn_of_common_bend(const Shot& shot, const Tracks& tracks, const std::vector<SolvedImpact>& impacts, Context& context);
 
 }  // namespace unseen::collision

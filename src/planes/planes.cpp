@@ -12,6 +12,7 @@
 #include "planes/result/describe.h"
 #include "planes/result/remarks.h"
 #include "planes/scan/cells.h"
+#include "planes/scan/dashes.h"
 #include "planes/scan/scale.h"
 #include "planes/selection/doubt.h"
 #include "planes/selection/select.h"
@@ -76,6 +77,7 @@ struct Look {
   Space space;
   Scale scale;
   double raster = 0;         ///< m, of the coordinates
+  double pixel = 0;          ///< m, of a drawing in pixels
   bool use_normals = false;  ///< those of the input
 };
 
@@ -87,8 +89,9 @@ Look look_at(PointSource& source, const Options& options, Context& context, Arra
   look.survey = survey(source, context);
   check_distinct(look.survey, info.name);
   look.space = space_of(look.survey, info.two_dimensional);
-  look.scale = choose_scale(source, look.survey, look.space, options, context);
   look.raster = rounding_of(look.survey);
+  look.pixel = pixel_of(look.survey, look.space, look.raster);
+  look.scale = choose_scale(source, look.survey, look.space, options, context, look.pixel);
   look.use_normals = normals_usable(look.survey, look.space, context);
   result.scale = look.scale.scale;
   result.two_dimensional = look.space.is_2d();
@@ -129,6 +132,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
     grid = VoxelGrid(voxels, context);
     grid.tolerance = tolerance;
     grid.raster = look.raster;
+    grid.pixel = look.pixel;
     grid.rounding = std::max(look.raster, look.scale.step);
     check_not_collinear(grid, space, source.info().name);
     if (!look.use_normals) grid.normals.clear();
@@ -200,7 +204,7 @@ void arrange(PointSource& source, const Options& options, Context& context, cons
   warn_of_up(result, context);
   warn_of_curves(patches, space, context);
   warn_of_right_angles(result, angles, context);
-  warn_of_turned(result, context);
+  if (model.certain == kCertain) warn_of_turned(result, context);
   context.check();
   summary.counts.emplace_back("frames", result.frames.size());
   summary.counts.emplace_back("relations", result.relations.size());

@@ -45,6 +45,25 @@ double gap_in(const PointCloud& cloud) {
   return gap_of_dashes(seen, space_of(seen, true), 1.0, 15.0);
 }
 
+double pixel_in(const PointCloud& cloud) {
+  CloudSource source(cloud);
+  Context context;
+  const Survey seen = survey(source, context);
+  return pixel_of(seen, space_of(seen, true), rounding_of(seen));
+}
+
+TEST(Pixels, AreNoScansWhoseCoordinatesAreRounded) {
+  EXPECT_EQ(pixel_in(two_rectangles(4, 1000, 1)), 1.0);
+  PointCloud scan;  // of two walls, in millimetres
+  Random random(2);
+  for (int i = 0; i < 4000; ++i) {
+    const double along = random.uniform(0, 8), across = 0.01 * random.normal();
+    const Vec3 p = i % 2 == 0 ? Vec3(along, across, 0) : Vec3(across, along, 0);
+    scan.positions.push_back((p * 1000.0).array().round() / 1000.0);
+  }
+  EXPECT_EQ(pixel_in(scan), 0.0);
+}
+
 TEST(Dashes, TheirGapIsThatDrawn) {
   for (const auto& [dash, gap] : {std::pair(9, 5), {12, 8}, {20, 10}}) EXPECT_NEAR(gap_in(two_rectangles(4, dash, gap)), gap + 1, 1.6) << dash;  // between middles of pixels
 }

@@ -260,6 +260,17 @@ TEST(RefitHeld, ASmoothSurfaceIsNotCarriedAwayAtACoarseScale) {
   EXPECT_NE(m.surfaces[0].frame, 0);
 }
 
+// A line in one row of pixels has no width and one tilt: its rounding says how well that is known.
+TEST(RefitHeld, ALineInOneRowOfPixelsIsNoSurerThanItsRounding) {
+  Patch line;
+  for (int x = 0; x < 40; ++x) line.moments += Moments{1.0, Vec3(x, 7, 0), Mat3::Zero()};
+  const Space drawing{Vec3::UnitZ()};
+  line.fit = fit_plane(line.moments, drawing);
+  line.variance_u = line.variance_v = std::pow(radians(1.0), 2);
+  const Vec3 turned(std::sin(radians(2.0)), std::cos(radians(2.0)), 0);
+  EXPECT_NEAR(noise_chi2(line, turned), 4.0, 0.2);
+}
+
 // The fewer frames are asked for, the surer a surface must be to have its own.
 TEST(RefitHeld, OneFrameThatIsAskedForKeepsAll) {
   Model m = ground_and_tops(0.03);

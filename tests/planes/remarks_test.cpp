@@ -74,7 +74,7 @@ std::string said_of_turned(double errors, std::size_t points) {
 }
 
 TEST(Turned, RelatedPlanesWhosePointsCertainlySayOtherwiseAreNamed) {
-  EXPECT_NE(said_of_turned(10.0, 100).find("1 plane is turned by more than 1° from what its own points say, up to 3°"), std::string::npos);
+  EXPECT_NE(said_of_turned(10.0, 100).find("1 plane is turned by more than 2° from what their own points say, up to 3°"), std::string::npos);
   EXPECT_NE(said_of_turned(10.0, 100).find("(id 1)"), std::string::npos);
   EXPECT_EQ(said_of_turned(5.0, 100), "");
   EXPECT_EQ(said_of_turned(10.0, 30), "") << "a few points have little to say";

@@ -3,6 +3,7 @@
 #include "collision/solve/setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 

@@ -13,7 +13,7 @@ constexpr double kCarriedAway = 0.1;  // of the tolerance: how far points one st
                                       // the surface's own fit, which is what it is not flat by
 constexpr double kPlain = 0.7 * kPi / 180.0, kRougher = 3.0;  // a surface that is turned by more may be off by so many times the rms of its own fit only, where the scale is coarse;
 constexpr double kProven = 4.0;    // times the χ² from which that is certain (by default ten standard errors): by no more than that rms
-constexpr double kHalf = 0.5;      // of what is allowed otherwise, or so many times the rms: where it is turned by less
+constexpr double kHalf = 0.5;      // where it is turned by less than kPlain and that is proven: of what may be carried, or kRougher times the rms if that is more
 constexpr double kHides = 0.5;     // of that rms: together with others, what is turned off its points by more would hide it
 constexpr double kOneDirection = 0.03;  // of the tolerance: the same for surfaces set free that share a direction
 
@@ -25,7 +25,7 @@ double turned_off(const Model& model, const Patch& patch, const Vec3& n) {
   return std::hypot(u * fit.spread_u, v * fit.spread_v);
 }
 
-/// How far points may be turned off (m). Short lines know their angle little better than the scale.
+/// How far points may be turned off (m), infinite where a surface is not set free at all: lines that are turned by little, whose rms is the width of the stroke.
 double most_turned_off(const Model& model, const Surface& surface, double tolerance, const Space& space) {
   const PlaneFit& fit = surface.support.fit;
   const Vec3 n = model.normal(surface);

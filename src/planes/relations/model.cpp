@@ -180,7 +180,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
   model.constraints = std::move(r.constraints);
   model.local_fits = selection.local_fits;
   // Scans that make a drawing are turned against each other, which no line's own points tell of; pixels are not.
-  if (space.is_2d() && grid.raster == 0.0) model.certain = std::numeric_limits<double>::infinity();
+  if (space.is_2d() && grid.pixel == 0.0) model.certain = std::numeric_limits<double>::infinity();
   else model.certain = kCertain * std::max(1.0, (1.0 - selection.lambda) / selection.lambda);
 
   if (!space.is_2d() && !model.local_fits) hold_patches(patches, grid.tolerance, space, model, r.frame_of_patch, r.local_of_patch);

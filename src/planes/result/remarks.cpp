@@ -82,7 +82,7 @@ void warn_of_right_angles(const Arrangement& result, const AngleSet& angles, Con
 }
 
 void warn_of_turned(const Arrangement& result, Context& context) {
-  constexpr double kLeast = kPi / 180.0, kErrors = 8.0;  // that a plane is turned by
+  constexpr double kLeast = 2.0 * kPi / 180.0, kErrors = 8.0;  // that a plane is turned by: scans out of register turn small ones by less
   constexpr std::size_t kFewest = 60, kListed = 5;       // points; planes that are named
   std::vector<int> sharing(result.directions.size(), 0);
   std::vector<char> related(result.directions.size(), 0);
@@ -99,9 +99,9 @@ void warn_of_turned(const Arrangement& result, Context& context) {
   }
   if (count == 0) return;
   if (count > kListed) names += ", …";
-  context.warn(fmt::format("{} {} turned by more than 1° from what {} own points say, up to {:.2g}°, which noise does not explain: {} relations are not to be trusted ({} {})",
-                           count, count > 1 ? (result.two_dimensional ? "lines are" : "planes are") : (result.two_dimensional ? "line is" : "plane is"), count > 1 ? "their" : "its",
-                           degrees(most), count > 1 ? "their" : "its", count > 1 ? "ids" : "id", names));
+  const char* what = result.two_dimensional ? (count > 1 ? "lines are" : "line is") : (count > 1 ? "planes are" : "plane is");
+  context.warn(fmt::format("{} {} turned by more than 2° from what their own points say, up to {:.2g}°: they may be two things in one, and their relations deserve a look ({} {})", count, what,
+                           degrees(most), count > 1 ? "ids" : "id", names));
 }
 
 void warn_of_up(const Arrangement& result, Context& context) {

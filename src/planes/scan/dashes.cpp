@@ -13,6 +13,7 @@
 namespace unseen::planes {
 namespace {
 
+constexpr double kTouching = 0.8;                     // of the points have one within a step of the raster: pixels, not scans whose coordinates are rounded
 constexpr double kElongated = 2.0;                     // times as long as wide is a dash
 constexpr double kTowards = 15.0 * kPi / 180.0;         // of the next dash, and of the way to it: short ones in pixels know their direction no better
 constexpr double kDashed = 0.5;                          // of the points are in dashes that another continues
@@ -26,34 +27,44 @@ struct Dash {
   double points = 0;
 };
 
-/// Sets of pixels that touch, corners included.
-std::vector<Moments> strokes_of(const Survey& survey, double pixel) {
+/// Pixels of a drawing.
+struct Pixels {
   KeyTable table;
   std::vector<Vec3> place;
-  for (const Vec3& p : survey.sample) {
-    const Eigen::Array3d at = ((p - survey.low) / pixel).array().round();
-    const std::size_t index = table.insert({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())});
-    if (index == place.size()) place.push_back(p);
+
+  Pixels(const Survey& survey, double width) {
+    for (const Vec3& p : survey.sample) {
+      const Eigen::Array3d at = ((p - survey.low) / width).array().round();
+      if (table.insert({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())}) == place.size()) place.push_back(p);
+    }
   }
-  std::vector<char> seen(place.size(), 0);
+
+  /// Calls `visit` with the index of each pixel that touches this one, corners included.
+  template <class Visit>
+  void neighbours(std::size_t pixel, Visit visit) const {
+    const VoxelKey key = table.keys()[pixel];
+    for (int n = 0; n < 27; ++n)
+      if (const int next = n == 13 ? -1 : table.find({key[0] + n % 3 - 1, key[1] + n / 3 % 3 - 1, key[2] + n / 9 - 1}); next >= 0) visit(static_cast<std::size_t>(next));
+  }
+};
+
+/// Sets of pixels that touch.
+std::vector<Moments> strokes_of(const Pixels& pixels) {
+  std::vector<char> seen(pixels.place.size(), 0);
   std::vector<Moments> strokes;
-  std::vector<int> open;
-  for (std::size_t start = 0; start < place.size(); ++start) {
+  std::vector<std::size_t> open;
+  for (std::size_t start = 0; start < seen.size(); ++start) {
     if (seen[start]) continue;
     seen[start] = 1;
-    open = {static_cast<int>(start)};
+    open = {start};
     Moments stroke;
     while (!open.empty()) {
-      const int at = open.back();
+      const std::size_t at = open.back();
       open.pop_back();
-      stroke += Moments{1.0, place[at], Mat3::Zero()};
-      const VoxelKey key = table.keys()[at];
-      for (int n = 0; n < 27; ++n) {
-        const int next = table.find({key[0] + n % 3 - 1, key[1] + n / 3 % 3 - 1, key[2] + n / 9 - 1});
-        if (next < 0 || seen[next]) continue;
-        seen[next] = 1;
-        open.push_back(next);
-      }
+      stroke += Moments{1.0, pixels.place[at], Mat3::Zero()};
+      pixels.neighbours(at, [&](std::size_t next) {
+        if (!seen[next]) seen[next] = 1, open.push_back(next);
+      });
     }
     strokes.push_back(stroke);
   }
@@ -87,8 +98,20 @@ double gap_to_next(const std::vector<Dash>& dashes, const Dash& dash, const Vec3
 
 }  // namespace
 
+double pixel_of(const Survey& survey, const Space& space, double raster) {
+  if (!space.is_2d() || raster == 0.0 || survey.share < 1.0) return 0.0;
+  const Pixels pixels(survey, raster);
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < pixels.place.size(); ++i) {
+    bool touches = false;
+    pixels.neighbours(i, [&](std::size_t) { touches = true; });
+    touching += touches;
+  }
+  return static_cast<double>(touching) > kTouching * static_cast<double>(pixels.place.size()) ? raster : 0.0;
+}
+
 double gap_of_dashes(const Survey& survey, const Space& space, double pixel, double farthest) {
-  const std::vector<Dash> dashes = dashes_of(strokes_of(survey, pixel), space);
+  const std::vector<Dash> dashes = dashes_of(strokes_of(Pixels(survey, pixel)), space);
   if (dashes.size() < kFewestDashes || dashes.size() > kMostDashes) return 0.0;
   std::vector<double> gaps;
   double points = 0;

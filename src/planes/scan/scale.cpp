@@ -54,7 +54,7 @@ double scale_by(const std::vector<Probe>& probes, const Space& space) {
 
 }  // namespace
 
-Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context) {
+Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context, double pixel) {
   const SampleTree tree(survey);
   std::vector<Probe> probes = survey.share < 1.0 ? probe_source(source, survey, tree, space, kProbes, kMostNeighbours, context)
                                                  : probe_sample(survey, tree, space, kProbes, kMostNeighbours, context);
@@ -71,13 +71,13 @@ Scale estimate_scale(PointSource& source, const Survey& survey, const Space& spa
   if (levels == 0.0 && !space.is_2d() && kNoise * noise < scale)
     result.tolerance = std::min(scale, std::max(kLeastTolerance * scale, kNoise * wide_noise(tree, space, probes, context)));
   if (kStepsSpanned * step > scale) result = {kStepsSpanned * step, kStepsSpanned * step, step};
-  if (const double pixel = space.is_2d() && survey.share == 1.0 ? rounding_of(survey) : 0.0; pixel > 0.0)
+  if (pixel > 0.0)
     if (const double gap = gap_of_dashes(survey, space, pixel, kFarthestDash * scale); kSpacing * gap > scale) result = {kSpacing * gap, kSpacing * gap, 0.0, gap};
   return result;
 }
 
 Scale choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
-                   Context& context) {
+                   Context& context, double pixel) {
   const double extent = survey.extent();
   Scale scale;
   if (options.scale) {
@@ -85,7 +85,7 @@ Scale choose_scale(PointSource& source, const Survey& survey, const Space& space
   } else if (options.relative_scale) {
     scale = {*options.relative_scale * extent, *options.relative_scale * extent};
   } else {
-    scale = estimate_scale(source, survey, space, context);
+    scale = estimate_scale(source, survey, space, context, pixel);
     if (scale.step > 0.0)
       context.warn(fmt::format("the points lie on levels that are about {:.2g} m apart, as coarse depth leaves them: the scale is {:.1f} times that, "
                                "and what is smaller is lost", scale.step, kStepsSpanned));

@@ -43,13 +43,13 @@ struct Scale {
 
 /// ρ as the larger of 1.25 times the distance to the sixth neighbour and four times the noise of small neighbourhoods, each the median over
 /// probes of the surface; where coarse depth has left the points on levels, at least 2.5 steps of these; where
-/// most of a drawing in pixels is dashes, 1.25 times the gaps. Reads the source again if the survey's
+/// most of a drawing in pixels (of this width, m) is dashes, 1.25 times the gaps. Reads the source again if the survey's
 /// sample holds only a part of it.
-Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context);
+Scale estimate_scale(PointSource& source, const Survey& survey, const Space& space, Context& context, double pixel = 0.0);
 
 /// ρ from the options, or estimated if they give none, with a warning of levels. Throws InputError if the scale exceeds the scene.
 Scale choose_scale(PointSource& source, const Survey& survey, const Space& space, const Options& options,
-                   Context& context);
+                   Context& context, double pixel = 0.0);
 
 /// Whether input normals may be relied upon: of usable length, and agreeing with PCA at most probes.
 bool normals_usable(const Survey& survey, const Space& space, const Context& context = Context());

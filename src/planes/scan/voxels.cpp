@@ -123,6 +123,7 @@ VoxelGrid VoxelGrid::coarser(std::vector<int>& parent, const Context& context) c
   grid.tolerance = tolerance;
   grid.rounding = rounding;
   grid.raster = raster;
+  grid.pixel = pixel;
   grid.within = within;
   parent = grid.place(up, context);
   grid.moments.resize(grid.size());

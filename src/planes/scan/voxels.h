@@ -63,6 +63,7 @@ class VoxelGrid {
   double tolerance = 0;  ///< m, how far a plane's points may lie from it; twice the edge unless something else is set
   double rounding = 0;   ///< m, the steps that coordinates come in along some axis; 0 = none that matter
   double raster = 0;     ///< m, the same of coordinates that are rounded alike along all axes
+  double pixel = 0;      ///< m, the same of a drawing in pixels, beside which there is no noise
   Box within;  ///< what lies outside is in no voxel
   LargeVector<VoxelKey> keys;
   LargeVector<Moments> moments;

@@ -110,7 +110,7 @@ double tilt_chi2(const Patch& patch, const Vec3& normal) {
 double noise_chi2(const Patch& patch, const Vec3& normal) {
   const PlaneFit& fit = patch.fit;
   const double across = std::max(std::abs(normal.dot(fit.normal)), 1e-9);
-  const auto chi2 = [&](double tilt, double variance, double spread) { return tilt * tilt / tilt_noise(patch.moments, fit, variance, spread); };
+  const auto chi2 = [&](double tilt, double variance, double spread) { return spread > 0.0 ? tilt * tilt / tilt_noise(patch.moments, fit, variance, spread) : 0.0; };  // lines have one tilt
   return chi2(normal.dot(fit.u) / across, patch.variance_u, fit.spread_u) + chi2(normal.dot(fit.v) / across, patch.variance_v, fit.spread_v);
 }
 
