@@ -48,7 +48,7 @@ std::optional<std::size_t> here_by_chance(const Evidence& p, const Group& group,
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < group.members.size(); ++i) {
     const Member& m = group.members[i];
-    if (noise_chi2(p.patch(m), frame.direction(p.locals[m.local])) < kCertain) continue;
+    if (noise_chi2(p.patch(m), frame.direction(p.locals[m.local])) < p.certain) continue;
     const double rest = supported(p, {group.frame, without(group.members, i), 0.0}, without(choices, i));
     if (rest > best) best = rest, found = i;
   }

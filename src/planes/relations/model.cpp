@@ -181,7 +181,7 @@ Model build_model(const Selection& selection, const Patches& patches, const Voxe
   model.local_fits = selection.local_fits;
   // Scans that make a drawing are turned against each other, which no line's own points tell of; pixels are not.
   if (space.is_2d() && grid.pixel == 0.0) model.certain = std::numeric_limits<double>::infinity();
-  else model.certain = kCertain * std::max(1.0, (1.0 - selection.lambda) / selection.lambda);
+  else model.certain = certain_at(selection.lambda);
 
   if (!space.is_2d() && !model.local_fits) hold_patches(patches, grid.tolerance, space, model, r.frame_of_patch, r.local_of_patch);
   std::vector<Vec3> normals;

@@ -69,7 +69,7 @@ void relate_to_earlier(const Evidence& p, Group group, std::vector<Group>& nodes
 
 Reconciled reconcile(const Selection& selection, const Patches& patches, const std::vector<Vec3>& locals,
                      const AngleSet& angles, const Space& space) {
-  const Evidence p{patches.patches, locals, angles, space};
+  const Evidence p{patches.patches, locals, angles, space, certain_at(selection.lambda)};
   Reconciled result;
   if (selection.local_fits) {
     result.frames = selection.frames;

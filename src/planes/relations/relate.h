@@ -27,6 +27,7 @@ struct Evidence {
   const std::vector<Vec3>& locals;
   const AngleSet& angles;
   const Space& space;
+  double certain = kCertain;  ///< χ² by its noise, from which a patch certainly contradicts its frame
 
   const Patch& patch(const Member& m) const { return patches[m.patch]; }
 };

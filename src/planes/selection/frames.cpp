@@ -114,6 +114,8 @@ double noise_chi2(const Patch& patch, const Vec3& normal) {
   return chi2(normal.dot(fit.u) / across, patch.variance_u, fit.spread_u) + chi2(normal.dot(fit.v) / across, patch.variance_v, fit.spread_v);
 }
 
+double certain_at(double lambda) { return kCertain * std::max(1.0, (1.0 - lambda) / lambda); }
+
 double data_cost(const Patch& patch, const Vec3& normal) {
   const double x = tilt_chi2(patch, normal) / 9.0;
   return 2.0 * x * x * x / (x * x + 1.0);

@@ -50,6 +50,8 @@ double tilt_chi2(const Patch& patch, const Vec3& normal);
 /// The same by noise alone, and from where on a patch is certainly turned off its fit.
 constexpr double kCertain = 25.0;
 double noise_chi2(const Patch& patch, const Vec3& normal);
+/// kCertain, or more where λ asks for fewer frames than by default: infinite at 0.
+double certain_at(double lambda);
 
 /// Directions that differ by less, rad, are one orientation.
 constexpr double kSameOrientation = 0.5 * kPi / 180.0;
