@@ -14,6 +14,7 @@ namespace unseen::planes {
 namespace {
 
 constexpr double kTouching = 0.8;                     // of the points have one within a step of the raster: pixels, not scans whose coordinates are rounded
+constexpr std::size_t kLookedAt = 5000;                 // of the points
 constexpr double kElongated = 2.0;                     // times as long as wide is a dash
 constexpr double kTowards = 15.0 * kPi / 180.0;         // of the next dash, and of the way to it: short ones in pixels know their direction no better
 constexpr double kDashed = 0.5;                          // of the points are in dashes that another continues
@@ -31,8 +32,12 @@ struct Dash {
 struct Pixels {
   KeyTable table;
   std::vector<Vec3> place;
+  int flat = 2;  ///< the axis along which a drawing has no extent
 
-  Pixels(const Survey& survey, double width) {
+  Pixels(const Survey& survey, const Space& space, double width) {
+    space.flat_axis->cwiseAbs().maxCoeff(&flat);
+    table.reserve(survey.sample.size());
+    place.reserve(survey.sample.size());
     for (const Vec3& p : survey.sample) {
       const Eigen::Array3d at = ((p - survey.low) / width).array().round();
       if (table.insert({static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())}) == place.size()) place.push_back(p);
@@ -42,9 +47,13 @@ struct Pixels {
   /// Calls `visit` with the index of each pixel that touches this one, corners included.
   template <class Visit>
   void neighbours(std::size_t pixel, Visit visit) const {
-    const VoxelKey key = table.keys()[pixel];
-    for (int n = 0; n < 27; ++n)
-      if (const int next = n == 13 ? -1 : table.find({key[0] + n % 3 - 1, key[1] + n / 3 % 3 - 1, key[2] + n / 9 - 1}); next >= 0) visit(static_cast<std::size_t>(next));
+    for (int n = 0; n < 9; ++n) {
+      if (n == 4) continue;
+      VoxelKey key = table.keys()[pixel];
+      key[(flat + 1) % 3] += n % 3 - 1;
+      key[(flat + 2) % 3] += n / 3 - 1;
+      if (const int next = table.find(key); next >= 0) visit(static_cast<std::size_t>(next));
+    }
   }
 };
 
@@ -100,18 +109,19 @@ double gap_to_next(const std::vector<Dash>& dashes, const Dash& dash, const Vec3
 
 double pixel_of(const Survey& survey, const Space& space, double raster) {
   if (!space.is_2d() || raster == 0.0 || survey.share < 1.0) return 0.0;
-  const Pixels pixels(survey, raster);
-  std::size_t touching = 0;
-  for (std::size_t i = 0; i < pixels.place.size(); ++i) {
+  const Pixels pixels(survey, space, raster);
+  const std::size_t stride = 1 + pixels.place.size() / kLookedAt;
+  std::size_t touching = 0, all = 0;
+  for (std::size_t i = 0; i < pixels.place.size(); i += stride, ++all) {
     bool touches = false;
     pixels.neighbours(i, [&](std::size_t) { touches = true; });
     touching += touches;
   }
-  return static_cast<double>(touching) > kTouching * static_cast<double>(pixels.place.size()) ? raster : 0.0;
+  return static_cast<double>(touching) > kTouching * static_cast<double>(all) ? raster : 0.0;
 }
 
 double gap_of_dashes(const Survey& survey, const Space& space, double pixel, double farthest) {
-  const std::vector<Dash> dashes = dashes_of(strokes_of(Pixels(survey, pixel)), space);
+  const std::vector<Dash> dashes = dashes_of(strokes_of(Pixels(survey, space, pixel)), space);
   if (dashes.size() < kFewestDashes || dashes.size() > kMostDashes) return 0.0;
   std::vector<double> gaps;
   double points = 0;
